@@ -192,7 +192,9 @@ impl Frame {
         let mut n_left_out = 0;
         for (index, place) in places.enumerate() {
             let Some(at) = place.filter(|at| !has_dots || self.has(*at)) else {
-                n_left_out += 1;
+                // What is no number at all is where a line is broken.
+                let is_break = series.points[index].iter().all(|value| value.is_nan());
+                n_left_out += usize::from(!is_break);
                 continue;
             };
             if has_dots {

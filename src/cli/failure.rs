@@ -182,7 +182,10 @@ fn code_of_engine(error: &EngineError) -> u8 {
         EngineError::Busy
         | EngineError::Thread(_)
         | EngineError::Audio(AudioError::System { .. }) => 1,
-        EngineError::Render(_) | EngineError::Input(_) | EngineError::Audio(_) => 2,
+        EngineError::Render(_)
+        | EngineError::Input(_)
+        | EngineError::Audio(_)
+        | EngineError::NoSecondDisplay => 2,
         EngineError::Scene(error) => code_of_scene(error),
         EngineError::Sink(error) => code_of_sink(error),
     }

@@ -1,6 +1,9 @@
 //! `selvedge report`: error against run time, stability, and what is left out, as tables and plots.
 
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Duration;
 
 use clap::Args;
 
@@ -9,13 +12,16 @@ use super::{CliError, output, signals};
 
 use selvedge_foundation::progress::CancelFlag;
 use selvedge_foundation::quantity;
-use selvedge_studies::{Effort, Options, Report, Standing, Study};
+use selvedge_studies::{Again, Effort, Options, Report, ReportError, Standing, Study};
+
+/// Between two looks at whether a further process has ended.
+const LOOK_AFTER: Duration = Duration::from_millis(20);
 
 /// What to report on, and where.
 #[derive(Debug, Args)]
 pub(super) struct ReportArgs {
     /// Folder for tables, plots and index.md; it is made where it is missing
-    #[arg(long, value_name = "DIR", required_unless_present = "list")]
+    #[arg(long, value_name = "DIR", required_unless_present_any = ["list", "times_alone"])]
     out: Option<PathBuf>,
     /// Run these studies only
     #[arg(long, value_name = "NAME", num_args = 1..)]
@@ -29,6 +35,15 @@ pub(super) struct ReportArgs {
     /// Name the studies and what they ask
     #[arg(long)]
     list: bool,
+    /// Say what became slower or less exact since this report.json
+    #[arg(long, value_name = "FILE")]
+    against: Option<PathBuf>,
+    /// Time everything in this process alone: quicker, with intervals that say less
+    #[arg(long)]
+    one_process: bool,
+    /// Print times alone: what a further process does
+    #[arg(long, hide = true)]
+    times_alone: bool,
 }
 
 /// Lists the studies, or runs them and writes what they found.
@@ -36,6 +51,11 @@ pub(super) fn run(args: &ReportArgs) -> Result<(), CliError> {
     let mut studies = selvedge_studies::studies();
     studies.extend(selvedge_workbench::studies());
     let studies = selvedge_studies::choose(studies, &args.only)?;
+    if args.times_alone {
+        let cancel = CancelFlag::shared(signals::stop_flag()?);
+        let times = selvedge_studies::times_alone(&studies, (effort(args), args.seed), &cancel)?;
+        return output::print(&times);
+    }
     match &args.out {
         Some(out) if !args.list => make(args, &studies, out),
         _ => list(&studies),
@@ -53,20 +73,77 @@ fn make(args: &ReportArgs, studies: &[Study], out: &Path) -> Result<(), CliError
     output::make_folder(out, "choose another --out")?;
     let options = Options {
         out: out.to_owned(),
-        effort: if args.quick {
-            Effort::Quick
-        } else {
-            Effort::Full
-        },
+        effort: effort(args),
         seed: args.seed,
         command: command(args, out),
+        against: args.against.clone(),
     };
     let cancel = CancelFlag::shared(signals::stop_flag()?);
     let mut meter = Meter::new("reporting");
     let mut show = |standing: &Standing<'_>| meter.show(standing.share, &words(standing));
-    let made = selvedge_studies::run(studies, &options, &cancel, &mut show)?;
+    let mut again = |names: &[&str]| further_process(args, names, &cancel);
+    let again: Option<&mut Again<'_>> = match args.one_process {
+        true => None,
+        false => Some(&mut again),
+    };
+    let made = selvedge_studies::run(studies, &options, &cancel, again, &mut show)?;
     drop(meter);
     conclude(&made)
+}
+
+fn effort(args: &ReportArgs) -> Effort {
+    if args.quick {
+        Effort::Quick
+    } else {
+        Effort::Full
+    }
+}
+
+/// Has another process of this program measure studies once more; what it printed.
+fn further_process(
+    args: &ReportArgs,
+    names: &[&str],
+    cancel: &CancelFlag,
+) -> Result<String, ReportError> {
+    let failed = |why: String| ReportError::Study(why);
+    let program = std::env::current_exe().map_err(|error| failed(error.to_string()))?;
+    let mut command = Command::new(program);
+    command.args(["report", "--times-alone", "--seed"]);
+    command.arg(args.seed.to_string()).arg("--only").args(names);
+    if args.quick {
+        command.arg("--quick");
+    }
+    command
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null());
+    let mut child = command.spawn().map_err(|error| failed(error.to_string()))?;
+    let Some(mut printed) = child.stdout.take() else {
+        return Err(failed("it printed nothing".to_owned()));
+    };
+    let reading = std::thread::spawn(move || {
+        let mut text = String::new();
+        printed.read_to_string(&mut text).map(|_| text)
+    });
+    let status = loop {
+        match child
+            .try_wait()
+            .map_err(|error| failed(error.to_string()))?
+        {
+            Some(status) => break status,
+            None if cancel.is_cancelled() => {
+                drop(child.kill());
+                drop(child.wait());
+                return Err(ReportError::Cancelled);
+            }
+            None => std::thread::sleep(LOOK_AFTER),
+        }
+    };
+    let text = reading.join().ok().and_then(Result::ok);
+    match text.filter(|_| status.success()) {
+        Some(text) => Ok(text),
+        None => Err(failed(format!("it ended with {status}"))),
+    }
 }
 
 /// What runs, and about how long the rest takes.
@@ -96,7 +173,7 @@ fn conclude(made: &Report) -> Result<(), CliError> {
         ));
     }
     if made.is_cancelled {
-        return Err(selvedge_studies::ReportError::Cancelled.into());
+        return Err(ReportError::Cancelled.into());
     }
     let failures: Vec<String> = made
         .failures()
@@ -124,6 +201,9 @@ fn command(args: &ReportArgs, out: &Path) -> String {
     }
     if args.quick {
         words.push("--quick".to_owned());
+    }
+    if args.one_process {
+        words.push("--one-process".to_owned());
     }
     words.push(format!("--seed {}", args.seed));
     words.join(" ")

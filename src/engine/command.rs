@@ -3,7 +3,7 @@
 //! Commands are plain values; what they need prepared (buffers, tables, ports) is prepared by
 //! [`Engine::send`](super::Engine::send) before they reach the thread.
 
-use super::{InputSource, PreparedScene, SequenceStep, SoundFeed, Tap};
+use super::{ClothDrive, InputSource, PreparedScene, SequenceStep, SoundFeed, Tap};
 use selvedge_device::{ArrayProfile, BridgeEvent, Target};
 use selvedge_render::stylus::StylusDrive;
 use selvedge_render::{PlacedLevel, RenderError};
@@ -41,6 +41,10 @@ pub enum Command {
     /// array again. Sequences go before it. It stays with edits of its scene; where they change
     /// the list of textiles it is silent until the next comes, and another scene ends it.
     SetStylus(Option<Box<StylusDrive>>),
+    /// Lets the first two displays feel what is given of a cloth that hangs, from the next tick on,
+    /// or the scene again. Sequences go before it; gains of master and bands, limits, mask and stops
+    /// are those of every tick. It outlives scenes.
+    SetCloth(Option<Box<ClothDrive>>),
     /// Levels of the placed textiles that were not known when the scene was prepared, one for each.
     SetLevels(Vec<PlacedLevel>),
     /// Where positions come from. A replay or stroke begins paused at its first tick.
@@ -68,6 +72,9 @@ pub enum Command {
     LoopWithin(Option<[u64; 2]>),
     /// Opens a device; its shape is that of the scene's first display.
     Connect(Target),
+    /// Opens a device for the scene's second display, if it has one. It goes with the first: it is
+    /// armed with it, and never moves while the first does not.
+    ConnectSecond(Target),
     /// The array that devices drive, from now on; `None`, or one with another number of contactors
     /// than the scene's first display, is the scene's own. While a device may move, only what
     /// lowers is taken; otherwise [`Notice::ArrayWaits`] comes and nothing changes.
@@ -86,6 +93,8 @@ pub enum Command {
     },
     /// Stops the device and lets go of it.
     Disconnect,
+    /// The same of the second display's.
+    DisconnectSecond,
     /// Arms the device, and ends the silence that `StopAll` began.
     Arm,
     /// Ramps the device to silence; the screen goes on.
@@ -120,6 +129,8 @@ pub enum Command {
 pub enum Notice {
     /// News of the device.
     Bridge(BridgeEvent),
+    /// News of the second display's.
+    SecondBridge(BridgeEvent),
     /// Something asked for was refused; the sentence says what and why.
     Refused(&'static str),
     /// An array profile was not taken, since the device may move; the one before holds.
@@ -128,7 +139,7 @@ pub enum Notice {
     GainIgnored(RenderError),
     /// Everything was switched off.
     Stopped,
-    /// The scene's first display has another number of contactors: the device was let go.
+    /// A display of the scene has another number of contactors: its device was let go.
     DisplayChanged,
     /// A replay, stroke or line stream came to its end.
     SourceEnded,

@@ -11,6 +11,12 @@ pub enum EngineError {
     /// More commands than it could obey so far.
     #[error("the engine is busy with earlier commands; try again in a moment")]
     Busy,
+    /// A device for a display that is not there.
+    #[error(
+        "the scene has no second display with as many contactors as the first: add one and connect \
+         again"
+    )]
+    NoSecondDisplay,
     /// The system gives no thread.
     #[error("cannot start a thread: {0}; close other programs and try again")]
     Thread(#[source] std::io::Error),

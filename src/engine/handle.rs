@@ -188,8 +188,15 @@ impl Engine {
                 how: (amplitude_um, duration_ms),
             },
             Command::SetSource(source) => CoreCommand::Source(playable(source)?).into(),
-            Command::Connect(target) => self.connect(target),
-            Command::Disconnect => self.disconnect(),
+            Command::Connect(target) => self.connect(0, target),
+            Command::ConnectSecond(target) => {
+                if self.driven.n_second != self.driven.n_felt {
+                    return Err(EngineError::NoSecondDisplay);
+                }
+                self.connect(1, target)
+            }
+            Command::Disconnect => self.disconnect(0),
+            Command::DisconnectSecond => self.disconnect(1),
             Command::Arm => ReadyCommand::Arm {
                 presses: self.switch.presses(),
             },
@@ -205,6 +212,7 @@ impl Engine {
             Command::SetLevels(levels) => CoreCommand::Levels(levels).into(),
             Command::SetContactorMask(mask) => CoreCommand::Mask(mask).into(),
             Command::PlaySequence(steps) => CoreCommand::PlaySequence(Sequence::of(steps)).into(),
+            Command::SetCloth(cloth) => CoreCommand::Cloth(cloth).into(),
             Command::SetStylus(stylus) => CoreCommand::Stylus(stylus).into(),
             Command::SetAngle(angle_deg) => ReadyCommand::Core(CoreCommand::Angle(angle_deg)),
             Command::TurnBy(by_deg) => ReadyCommand::Core(CoreCommand::Turn(by_deg)),
@@ -229,10 +237,12 @@ impl Engine {
         self.push(command)
     }
 
-    fn disconnect(&mut self) -> ReadyCommand {
-        self.switch.set_device(None);
-        self.device.actuators = None;
-        ReadyCommand::Disconnect
+    fn disconnect(&mut self, display: usize) -> ReadyCommand {
+        self.switch.set_device(display, None);
+        if display == 0 {
+            self.device.actuators = None;
+        }
+        ReadyCommand::Connect(display, None)
     }
 
     /// The latest snapshot.
@@ -334,15 +344,16 @@ impl Engine {
         Ok(())
     }
 
-    fn connect(&mut self, target: Target) -> ReadyCommand {
+    fn connect(&mut self, display: usize, target: Target) -> ReadyCommand {
         let when = (&self.switch, self.body.told());
-        self.device.open(target, &self.driven, when)
+        self.device.open((display, target), &self.driven, when)
     }
 
     /// Another scene, with a channel for snapshots of its size.
     fn ready_scene(&mut self, mut scene: Box<PreparedScene>, is_edited: bool) -> ReadyCommand {
-        if self.driven.follow(&mut scene) {
-            self.switch.set_device(None);
+        let are_others = self.driven.follow(&mut scene);
+        for (display, _) in (0..).zip(are_others).filter(|(_, is_other)| *is_other) {
+            self.switch.set_device(display, None);
         }
         let (input, output) = triple_buffer::triple_buffer(&scene.first_snapshot());
         self.coming.push(output);

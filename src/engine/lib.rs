@@ -24,6 +24,7 @@
 
 mod audio;
 mod clip;
+mod cloth;
 mod command;
 mod engine_core;
 mod error;
@@ -50,6 +51,7 @@ mod velocity;
 
 pub use audio::{AudioEntry, AudioError, AudioLatency, AudioOutput, CardChannels, Silencer};
 pub use clip::{ApplyTicks, ClipKind, ClipWriter, Written, side_by_side, write_clip};
+pub use cloth::{ClothDrive, ClothFeed, ClothTick};
 pub use command::{Command, Notice};
 pub use engine_core::EngineCore;
 pub use error::EngineError;

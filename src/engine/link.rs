@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 use super::recording::LinkTally;
 use super::{LinkView, TICK};
 use selvedge_device::{
-    ArrayChange, Bridge, BridgeCounters, BridgeEvent, DeviceUid, LinkScale, Pacer, SentFrame,
-    StopHow, Timings,
+    ArrayChange, Bridge, BridgeCounters, BridgeEvent, BridgeState, DeviceUid, LinkScale, Pacer,
+    SentFrame, StopHow, Timings,
 };
 
 /// Ticks between two looks at the timings of the link: one second.
@@ -31,8 +31,17 @@ pub(super) struct Link {
 impl Link {
     /// No device yet; ticks come from `start` on.
     pub(super) fn new(start: Instant) -> Self {
+        Self::paced(Pacer::with_own_clock(start))
+    }
+
+    /// No device yet, and no ticks but those of one.
+    pub(super) fn waiting() -> Self {
+        Self::paced(Pacer::waiting())
+    }
+
+    fn paced(pacer: Pacer) -> Self {
         Self {
-            pacer: Pacer::with_own_clock(start),
+            pacer,
             bridge: None,
             last_device: None,
             sent: None,
@@ -86,6 +95,12 @@ impl Link {
         hear: &mut dyn FnMut(BridgeEvent),
     ) -> Option<Instant> {
         self.pacer.turn(self.bridge.as_deref_mut(), now, hear)
+    }
+
+    /// Whether there is a device that can be armed.
+    pub(super) fn is_ready(&self) -> bool {
+        let bridge = self.bridge.as_ref();
+        bridge.is_some_and(|bridge| bridge.state() == BridgeState::Ready)
     }
 
     /// Arms; false if there is no device that is ready.
@@ -149,6 +164,11 @@ impl Link {
                 bridge.stop(StopHow::Ramp);
             }
         }
+    }
+
+    /// Whether channels are being identified.
+    pub(super) fn is_identifying(&self) -> bool {
+        self.is_identifying
     }
 
     /// Drives one channel alone: amplitude in µm, time in ms.

@@ -4,8 +4,8 @@ use std::fmt;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::{
-    ClockView, ContactorView, DisplayView, EngineCounters, EngineError, Playback, Played,
-    PointerView, RecordingView, RenderingView, Snapshot, SourceKind,
+    ClockView, ClothTick, ContactorView, DisplayView, EngineCounters, EngineError, Playback,
+    Played, PointerView, RecordingView, RenderingView, Snapshot, SourceKind,
 };
 use selvedge_device::{ArrayProfile, Coder, LinkScale};
 use selvedge_foundation::geometry::Point;
@@ -105,7 +105,13 @@ impl PreparedScene {
 
     /// Contactors of the first display: those that a device plays.
     pub fn n_felt(&self) -> usize {
-        self.outputs.first().map_or(0, |output| output.codes.len())
+        self.n_felt_of(0)
+    }
+
+    /// The same of any display; 0 where there is none.
+    pub(super) fn n_felt_of(&self, display: usize) -> usize {
+        let output = self.outputs.get(display);
+        output.map_or(0, |output| output.codes.len())
     }
 
     /// Contactors of all displays together.
@@ -139,12 +145,13 @@ impl PreparedScene {
     /// as `apart` has them, and looks which output limits their amplitudes meet.
     /// Contactors of the first display that the mask says are not felt do nothing. Where something
     /// is played, the first display feels that in place of the whole scene; else what a stylus
-    /// drives it with, if one is felt.
+    /// drives it with, if one is felt. What a cloth that hangs gives replaces all of both displays.
     pub(super) fn render(
         &mut self,
         (pose, apart): (Pose, &[Pose]),
         mask: &[bool],
         (played, stylus): (Option<Played>, Option<(usize, [f64; 2])>),
+        cloth: Option<&ClothTick>,
     ) {
         self.poses.fill(pose);
         for (place, own) in self.poses.iter_mut().skip(1).zip(apart) {
@@ -164,6 +171,9 @@ impl PreparedScene {
                 self.renderer.drive_display(0, textile, amplitude_um);
             }
             (Some(Played::Textile(_)) | None, _) => {}
+        }
+        for (display, given) in cloth.into_iter().flatten().enumerate() {
+            self.renderer.give_display(display, given);
         }
         self.renderer.mask_display(0, mask);
         for (output, frame) in self.outputs.iter_mut().zip(self.renderer.frames()) {
@@ -243,6 +253,7 @@ impl PreparedScene {
             is_silent: false,
             sequence_step: None,
             stylus: None,
+            is_cloth: false,
             rendering: RenderingView::of(&self.renderer),
             pointer: PointerView::default(),
             source: SourceKind::Pointer,
@@ -254,6 +265,7 @@ impl PreparedScene {
             clock: ClockView::default(),
             counters: EngineCounters::default(),
             link: None,
+            second_link: None,
         }
     }
 

@@ -5,7 +5,7 @@ use triple_buffer::Input;
 use super::input::{Control, PointerInput};
 use super::recording::Recorder;
 use super::sequence::Sequence;
-use super::{PreparedScene, Snapshot, SoundFeed, Tap};
+use super::{ClothDrive, PreparedScene, Snapshot, SoundFeed, Tap};
 use selvedge_device::{ArrayChange, Bridge, Coder};
 use selvedge_render::PlacedLevel;
 use selvedge_render::stylus::StylusDrive;
@@ -17,9 +17,8 @@ pub(super) enum ReadyCommand {
     Core(CoreCommand),
     /// A new scene, with a channel for snapshots of its size.
     Scene(NextScene, Input<Snapshot>),
-    /// A device that is being opened.
-    Connect(Box<Bridge>),
-    Disconnect,
+    /// A device that is being opened, or none, for the first or second display.
+    Connect(usize, Option<Box<Bridge>>),
     /// Another array profile, made ready for screen and device.
     Array(Box<NextArray>),
     /// Whether channels are being identified.
@@ -57,6 +56,8 @@ pub(super) struct NextArray {
     pub(super) coder: Coder,
     /// For the device.
     pub(super) change: ArrayChange,
+    /// For the second display's.
+    pub(super) second: ArrayChange,
 }
 
 /// The scene that is felt next.
@@ -93,6 +94,8 @@ pub(super) enum CoreCommand {
     PlaySequence(Sequence),
     /// What is felt in place of the array; `None`: the array.
     Stylus(Option<Box<StylusDrive>>),
+    /// A cloth that hangs, in place of the scene; `None`: the scene.
+    Cloth(Option<Box<ClothDrive>>),
     /// `None`: live samples.
     Source(Option<Box<dyn PointerInput>>),
     Angle(f64),
@@ -123,6 +126,7 @@ pub(super) enum Retired {
     Mask(Vec<bool>),
     Sequence(Sequence),
     Stylus(Box<StylusDrive>),
+    Cloth(Box<ClothDrive>),
     Bridge(Box<Bridge>),
     Array(Box<NextArray>),
     Tap(Box<Tap>),
@@ -131,4 +135,4 @@ pub(super) enum Retired {
 }
 
 /// The most that one command, or a stop, retires.
-pub(super) const MAX_RETIRED: usize = 4;
+pub(super) const MAX_RETIRED: usize = 5;

@@ -80,6 +80,9 @@ pub(super) struct Runner {
     was_live: bool,
     pub(super) clock: Clock,
     link: Link,
+    /// The device of the second display, which goes with the first: it is given the newest
+    /// amplitudes at each of its own ticks, and never moves while the first may not.
+    second: Link,
     lateness: DurationHistogram,
     late: u64,
     cost: RecentMedian,
@@ -107,6 +110,7 @@ impl Runner {
             switch,
             clock,
             link: Link::new(clock.now()),
+            second: Link::waiting(),
             lateness: DurationHistogram::default(),
             late: 0,
             cost: RecentMedian::new(),
@@ -133,18 +137,21 @@ impl Runner {
     pub(super) fn step(&mut self) -> Instant {
         if let Clock::Told(now) = self.clock {
             self.link.tell(now);
+            self.second.tell(now);
         }
         self.heed_stop();
         self.obey();
         if let Some(due) = self.turn() {
             self.tick(due);
         }
+        self.turn_second();
         self.next_due()
     }
 
     /// When the next tick is due if no device tick comes first.
     pub(super) fn next_due(&self) -> Instant {
-        let deadline = self.link.pacer.deadline();
+        let deadlines = [self.link.pacer.deadline(), self.second.pacer.deadline()];
+        let deadline = deadlines.into_iter().flatten().min();
         deadline.unwrap_or_else(|| self.clock.now() + LONGEST_NAP)
     }
 
@@ -166,6 +173,23 @@ impl Runner {
             self.core.set_link(self.link.scale());
         }
         due
+    }
+
+    /// Takes the news of the second display's device, and answers its ticks.
+    fn turn_second(&mut self) {
+        let notices = &mut self.channels.notices;
+        let due = self.second.turn(self.clock.now(), &mut |event| {
+            if !matches!(event, BridgeEvent::Pong { .. }) {
+                notices.push(Notice::SecondBridge(event));
+            }
+        });
+        let may_move = self.link.is_live() && !self.link.is_identifying();
+        if self.second.is_live() && !may_move {
+            self.second.stop(StopHow::Ramp);
+        } else if due.is_some() {
+            self.second
+                .send(self.core.felt_um_of(1), self.core.fresh_stamp());
+        }
     }
 
     fn tick(&mut self, due: Instant) {
@@ -213,6 +237,7 @@ impl Runner {
         let is_full = std::mem::replace(&mut self.full_presses_heard, full_presses) != full_presses;
         let is_everything = is_full || self.was_live || self.link.is_live();
         self.link.stop(StopHow::Now);
+        self.second.stop(StopHow::Now);
         if is_everything {
             let retired = self.core.stop();
             self.retire(retired);
@@ -231,17 +256,22 @@ impl Runner {
             match command {
                 ReadyCommand::Core(command) => self.obey_core(command),
                 ReadyCommand::Scene(next, snapshots) => self.set_scene(next, snapshots),
-                ReadyCommand::Connect(bridge) => self.connect(Some(bridge)),
-                ReadyCommand::Disconnect => self.connect(None),
+                ReadyCommand::Connect(display, bridge) => self.connect(display, bridge),
                 ReadyCommand::Array(array) => self.set_array(array),
                 ReadyCommand::Identify(is_begun) => self.link.identify(is_begun),
                 ReadyCommand::IdentifyChannel { channel, how } => {
                     self.identify_channel(channel, how);
                 }
                 ReadyCommand::Arm { presses } => self.arm(presses),
-                ReadyCommand::Disarm => self.link.stop(StopHow::Ramp),
+                ReadyCommand::Disarm => {
+                    self.link.stop(StopHow::Ramp);
+                    self.second.stop(StopHow::Ramp);
+                }
                 ReadyCommand::Resume => self.core.resume(),
-                ReadyCommand::ClearFaults => self.link.clear_faults(),
+                ReadyCommand::ClearFaults => {
+                    self.link.clear_faults();
+                    self.second.clear_faults();
+                }
                 ReadyCommand::SampleTicks(is_heard) => self.channels.sampler.listen(is_heard),
                 ReadyCommand::Watch(contactor) => self.channels.sampler.watch(contactor),
                 ReadyCommand::WatchDisplay(nth) => self.channels.sampler.watch_display(nth),
@@ -255,6 +285,7 @@ impl Runner {
                 }
                 ReadyCommand::Shutdown => {
                     self.link.stop(StopHow::Now);
+                    self.second.stop(StopHow::Now);
                     self.is_over = true;
                 }
             }
@@ -270,9 +301,15 @@ impl Runner {
     }
 
     fn set_scene(&mut self, mut next: NextScene, snapshots: Input<Snapshot>) {
-        if self.link.is_some() && next.scene.n_felt() != self.core.scene().n_felt() {
-            self.connect(None);
-            self.say(Notice::DisplayChanged);
+        for (display, link) in [self.link.is_some(), self.second.is_some()]
+            .into_iter()
+            .enumerate()
+        {
+            let [before, after] = [self.core.scene(), &*next.scene];
+            if link && before.n_felt_of(display) != after.n_felt_of(display) {
+                self.connect(display, None);
+                self.say(Notice::DisplayChanged);
+            }
         }
         next.scene.set_link(self.link.scale());
         self.obey_core(CoreCommand::Scene(next));
@@ -282,7 +319,8 @@ impl Runner {
     }
 
     fn set_array(&mut self, mut array: Box<NextArray>) {
-        if self.link.set_array(&mut array.change) {
+        // Either refuses only what the other would: both may move, or neither.
+        if self.link.set_array(&mut array.change) && self.second.set_array(&mut array.second) {
             self.core.exchange_coder(&mut array.coder);
         } else {
             self.say(Notice::ArrayWaits);
@@ -296,9 +334,13 @@ impl Runner {
         }
     }
 
-    fn connect(&mut self, bridge: Option<Box<Bridge>>) {
-        let last = self.link.connect(bridge);
-        self.core.set_link(None);
+    fn connect(&mut self, display: usize, bridge: Option<Box<Bridge>>) {
+        let last = if display == 0 {
+            self.core.set_link(None);
+            self.link.connect(bridge)
+        } else {
+            self.second.connect(bridge)
+        };
         self.retire(last.map(Retired::Bridge));
     }
 
@@ -309,9 +351,18 @@ impl Runner {
             ));
             return;
         }
+        if self.second.is_some() && self.link.is_ready() && !self.second.is_ready() {
+            self.say(Notice::Refused(
+                "the second display's device is not ready: disconnect it, or see to it, and arm \
+                 again",
+            ));
+            return;
+        }
         self.core.resume();
         if !self.link.arm() {
             self.say(Notice::Refused("no device is ready to be armed"));
+        } else if !self.link.is_identifying() {
+            self.second.arm();
         }
     }
 
@@ -337,6 +388,7 @@ impl Runner {
             costs: self.costs,
         };
         snapshot.link = self.link.view();
+        snapshot.second_link = self.second.view();
         self.was_live = self.link.is_live();
         let summary = SnapshotSummary::of(snapshot);
         self.channels.snapshots.publish();

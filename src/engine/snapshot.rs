@@ -50,6 +50,8 @@ pub struct Snapshot {
     pub sequence_step: Option<u16>,
     /// What the stylus does that is felt in place of the array; `None`: the array is felt.
     pub stylus: Option<StylusState>,
+    /// Whether a cloth that hangs is felt in place of the scene.
+    pub is_cloth: bool,
     /// How amplitudes are made.
     pub rendering: RenderingView,
     /// The pointer and its velocity.
@@ -66,6 +68,8 @@ pub struct Snapshot {
     pub counters: EngineCounters,
     /// The device; `None` without one.
     pub link: Option<LinkView>,
+    /// The second display's.
+    pub second_link: Option<LinkView>,
 }
 
 /// How the amplitudes of a snapshot are made.

@@ -25,6 +25,7 @@ pub(super) struct SnapshotSummary {
     is_stopped: bool,
     sequence_step: Option<u16>,
     stylus: Option<StylusState>,
+    is_cloth: bool,
     tuning: Tuning,
     playback: Playback,
     n_recorded: u64,
@@ -32,7 +33,7 @@ pub(super) struct SnapshotSummary {
     missed: u64,
     notices_lost: u64,
     is_device_paced: bool,
-    device: Option<(BridgeState, u8, DeviceCounters, CodeCounters)>,
+    devices: [Option<(BridgeState, u8, DeviceCounters, CodeCounters)>; 2],
 }
 
 impl SnapshotSummary {
@@ -59,6 +60,7 @@ impl SnapshotSummary {
             is_stopped: snapshot.is_stopped,
             sequence_step: snapshot.sequence_step,
             stylus: snapshot.stylus,
+            is_cloth: snapshot.is_cloth,
             tuning: snapshot.rendering.tuning,
             playback: snapshot.playback,
             n_recorded: snapshot.recording.n_ticks,
@@ -66,7 +68,7 @@ impl SnapshotSummary {
             missed: snapshot.clock.missed,
             notices_lost: snapshot.counters.notices_lost,
             is_device_paced: snapshot.clock.is_device_paced,
-            device: snapshot.link.as_ref().map(device),
+            devices: [snapshot.link, snapshot.second_link].map(|link| link.as_ref().map(device)),
         }
     }
 }

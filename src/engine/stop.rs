@@ -22,7 +22,7 @@ struct Shared {
     full_presses: AtomicU64,
     engine: OnceLock<Thread>,
     /// Only ever held to look or to swap, never by the engine's thread.
-    device: Mutex<Option<StopHandle>>,
+    devices: Mutex<[Option<StopHandle>; 2]>,
 }
 
 impl StopSwitch {
@@ -36,7 +36,7 @@ impl StopSwitch {
     /// device either way, and an `Arm` on its way is void.
     pub fn press_if_armed(&self) {
         self.0.presses.fetch_add(1, Ordering::SeqCst);
-        if let Some(device) = &*self.device() {
+        for device in self.devices().iter().flatten() {
             device.stop(StopHow::Now);
         }
         if let Some(engine) = self.0.engine.get() {
@@ -50,8 +50,8 @@ impl StopSwitch {
         let press = move || {
             switch.press();
             // Not while its lock is held: the wait may be as long as the port is stuck.
-            let device = switch.device().clone();
-            if let Some(device) = device {
+            let devices = switch.devices().clone();
+            for device in devices.into_iter().flatten() {
                 device.last_word();
             }
         };
@@ -81,13 +81,14 @@ impl StopSwitch {
         }
     }
 
-    /// The device that it stops.
-    pub(super) fn set_device(&self, device: Option<StopHandle>) {
-        *self.device() = device;
+    /// The device of a display, which it stops.
+    pub(super) fn set_device(&self, display: usize, device: Option<StopHandle>) {
+        self.devices()[display] = device;
     }
 
-    fn device(&self) -> std::sync::MutexGuard<'_, Option<StopHandle>> {
-        self.0.device.lock().unwrap_or_else(PoisonError::into_inner)
+    fn devices(&self) -> std::sync::MutexGuard<'_, [Option<StopHandle>; 2]> {
+        let devices = &self.0.devices;
+        devices.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

@@ -117,6 +117,18 @@ impl Gains {
         &self.tuning
     }
 
+    /// Amplitude factors by band of what is no textile of the scene: the master's and the band's.
+    pub(super) fn plain_factors(&self) -> [f64; 2] {
+        let Tuning {
+            gain_db,
+            gain_40_db,
+            gain_320_db,
+            ..
+        } = self.tuning;
+        [gain_40_db, gain_320_db]
+            .map(|band_db| factor_of_gain((gain_db + band_db).min(MAX_TOTAL_GAIN_DB)))
+    }
+
     /// Amplitude factors of a textile by band.
     pub(super) fn factors(&self, textile: usize) -> [f64; 2] {
         self.textiles[textile].factors

@@ -3,7 +3,7 @@
 
 use super::pareto::error_and_cost;
 use super::readable;
-use super::{Findings, Row, Study, pareto};
+use super::{Findings, Front, Row, Study, pareto};
 use selvedge_chart::{Axis, Chart, Series, Style};
 
 /// More promises than this are not drawn.
@@ -51,26 +51,30 @@ pub(super) fn place(all: &mut Vec<Series>, name: &str, style: Style) -> usize {
     })
 }
 
-/// The plot of error against run time; `None` where no row has both.
+/// A row in the plot: what it costs, its error, whether it is on the front.
+type Point = ([f64; 2], bool);
+
+/// Rows of a method by case: what is joined by one line.
+type Curves<'a> = Vec<((&'a str, Option<f64>), Vec<Point>)>;
+
+/// The plot of error against run time, one curve a method and case; `None` where no row has both.
 pub(super) fn error_against_time(study: &Study, findings: &Findings) -> Option<Chart> {
     let on_front = pareto(&findings.rows);
-    let mut series: Vec<Series> = Vec::new();
+    let mut methods: Vec<(&str, Curves<'_>)> = Vec::new();
     let mut ends_s = [f64::INFINITY, 0.0_f64];
     for (row, is_on_front) in findings.rows.iter().zip(on_front) {
         let Some((error, cost_s)) = error_and_cost(row) else {
             continue;
         };
         ends_s = [ends_s[0].min(cost_s), ends_s[1].max(cost_s)];
-        let index = place(&mut series, &row.method, Style::default());
-        let series = &mut series[index];
-        if is_on_front == Some(true) {
-            series.marked.push(series.points.len());
-        }
-        series.points.push([cost_s, error]);
+        let curves = of_key(&mut methods, row.method.as_str());
+        let curve = of_key(curves, (row.case.as_str(), row.size));
+        curve.push(([cost_s, error], is_on_front == Some(Front::On)));
     }
-    if series.is_empty() {
+    if methods.is_empty() {
         return None;
     }
+    let mut series: Vec<Series> = methods.into_iter().map(joined).collect();
     let (measure, unit) = study.error;
     series.extend(promises(&findings.rows, ends_s, unit));
     let y_label = [measure, unit].join(", ");
@@ -80,11 +84,43 @@ pub(super) fn error_against_time(study: &Study, findings: &Findings) -> Option<C
         Axis::log(y_label.trim_end_matches(", ")),
         series,
         format!(
-            "Ringed: on its case nothing else is both cheaper and more exact. An error of \
-             exactly 0 has no place. Numbers: {}.csv.",
+            "A line joins the settings of a method on one case. Ringed: on its case nothing else \
+             is both surely cheaper and as exact. An error of exactly 0 has no place. Numbers: \
+             {}.csv.",
             study.name
         ),
     ))
+}
+
+/// What belongs to a key, which is added if it is new.
+fn of_key<K: PartialEq, V: Default>(all: &mut Vec<(K, V)>, key: K) -> &mut V {
+    let at = all.iter().position(|(known, _)| *known == key);
+    let at = at.unwrap_or_else(|| {
+        all.push((key, V::default()));
+        all.len() - 1
+    });
+    &mut all[at].1
+}
+
+/// The curves of a method as one series, which is broken between cases.
+fn joined((method, curves): (&str, Curves<'_>)) -> Series {
+    let mut series = Series::of(method, Style::default(), []);
+    for (_, mut curve) in curves {
+        curve.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+        if curve.len() > 1 {
+            series.style = Style::LineAndDots;
+        }
+        if !series.points.is_empty() {
+            series.points.push([f64::NAN; 2]);
+        }
+        for (point, is_on_front) in curve {
+            if is_on_front {
+                series.marked.push(series.points.len());
+            }
+            series.points.push(point);
+        }
+    }
+    series
 }
 
 /// The promises as dashed lines, unless there are too many different ones.

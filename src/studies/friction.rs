@@ -144,7 +144,8 @@ impl Way {
             n_iterations,
             momentum: self.momentum,
         };
-        let errors: Vec<[f64; 2]> = (0..n_seeds)
+        let n_run = if bench.wants_errors() { n_seeds } else { 1 };
+        let errors: Vec<[f64; 2]> = (0..n_run)
             .map(|seed| self.errors(stft, traces[seed % traces.len()], seed, how))
             .collect();
         let worst = |nth: usize| largest(errors.iter().map(|error| error[nth]));
@@ -268,11 +269,17 @@ fn smoothed(picture: &Grid<f32>) -> Grid<f32> {
 }
 
 fn pictures(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    // Nothing is seen where errors are not asked for.
     let n_cloths = bench.effort.pick(4, 40);
-    let taken = Taken::held_back(Split::Cloths, n_cloths, n_threads());
+    let (taken, all) = match bench.wants_errors() {
+        true => (
+            Taken::held_back(Split::Cloths, n_cloths, n_threads()),
+            Spoilt::all(bench),
+        ),
+        false => (Taken::held_back(Split::Cloths, 1, 1), Vec::new()),
+    };
     let predictor = Predictor::shipped()?;
     let mut rows = Vec::new();
-    let all = Spoilt::all(bench);
     for (nth, spoilt) in all.iter().enumerate() {
         let setting = spoilt.setting();
         bench.step(nth as f64 / all.len() as f64, &setting)?;

@@ -4,7 +4,7 @@ use super::listing::{cell, table};
 use super::machine::Machine;
 use super::readable::{number, time};
 use super::runner::{Options, Outcome, Report};
-use super::{Effort, Findings, Row, Study, chart, write};
+use super::{Effort, Findings, ReportError, Row, Study, chart, write};
 
 /// Where and how a report was made.
 #[derive(Debug, Clone, Copy)]
@@ -17,8 +17,21 @@ pub(super) struct About<'a> {
     pub(super) date: &'a str,
 }
 
+/// Writes the index.
+pub(super) fn write(
+    studies: &[Study],
+    report: &Report,
+    about: &About<'_>,
+) -> Result<(), ReportError> {
+    write::text(
+        "index.md",
+        &about.options.out,
+        &text(studies, report, about),
+    )
+}
+
 /// The whole text.
-pub(super) fn text(studies: &[Study], report: &Report, about: &About<'_>) -> String {
+fn text(studies: &[Study], report: &Report, about: &About<'_>) -> String {
     let mut out = vec!["# Error against run time, stability, and what is left out\n".to_owned()];
     if report.is_cancelled {
         out.push("**Stopped before it was done.** What was finished is below.\n".to_owned());
@@ -38,12 +51,60 @@ pub(super) fn text(studies: &[Study], report: &Report, about: &About<'_>) -> Str
     for (name, why) in report.failures() {
         out.push(format!("**{name} failed**: {}\n", cell(why)));
     }
+    if let Some(why) = &report.trouble {
+        let words = "**Times are of fewer processes than they should be**, so that their intervals \
+                     say less";
+        out.push(format!("{words}: {}\n", cell(why)));
+    }
+    verdicts(done(), &mut out);
+    if let Some(since) = &report.since {
+        out.push(since.text());
+    }
     about_text(about, &mut out);
     for (study, findings, took) in done() {
         study_text(study, findings, &time(took.as_secs_f64()), &mut out);
     }
     not_run(report, &mut out);
     out.join("\n")
+}
+
+/// Every study in a line: what it asks, how many promises it keeps, what keeps its promise at least
+/// cost.
+fn verdicts<'a>(
+    done: impl Iterator<Item = (&'a Study, &'a Findings, &'a std::time::Duration)>,
+    out: &mut Vec<String>,
+) {
+    out.push(
+        "| study | it asks | promises kept | worst error where one is promised | took |".to_owned(),
+    );
+    out.push("|---|---|---|---|---|".to_owned());
+    for (study, findings, took) in done {
+        let judged = findings.rows.iter().filter_map(Row::is_kept);
+        let (n_kept, n) = judged.fold((0, 0), |(n_kept, n), is_kept| {
+            (n_kept + usize::from(is_kept), n + 1)
+        });
+        let kept = match (n_kept, n) {
+            (_, 0) => "none is made".to_owned(),
+            (n_kept, n) if n_kept == n => format!("all {n}"),
+            (n_kept, n) => format!("**{n_kept} of {n}**"),
+        };
+        let near = |row: &Row| Some((row.error? / row.promised?, row.error?, row.promised?));
+        let worst = findings.rows.iter().filter_map(near);
+        let worst = worst.max_by(|a, b| a.0.total_cmp(&b.0));
+        let worst = worst.map_or_else(String::new, |(_, error, promised)| {
+            let unit = study.error.1;
+            format!("{} of {} {unit}", number(error), number(promised))
+        });
+        let anchor = chart::titled(study.name).to_lowercase().replace(' ', "-");
+        out.push(format!(
+            "| [{}](#{anchor}) | {} | {kept} | {} | {} |",
+            study.name,
+            cell(study.question),
+            worst.trim_end(),
+            time(took.as_secs_f64())
+        ));
+    }
+    out.push(String::new());
 }
 
 /// What promised too much, on top where nobody overlooks it.
@@ -85,12 +146,22 @@ fn about_text(about: &About<'_>, out: &mut Vec<String>) {
     };
     let cores = format!("{} cores, {}", machine.n_cores, cell(&machine.cpu));
     let program = format!("{}, {}, {build}", machine.program, machine.compiler);
+    let commit = machine.commit.as_deref().map_or("unknown", |commit| commit);
+    let commit = cell(commit);
+    let load = machine
+        .loads
+        .each_ref()
+        .map(|load| load.as_deref().unwrap_or("unknown"));
+    let load = format!("{} before, {} at the end", load[0], load[1]);
     let command = format!("`{}`", options.command.replace('`', "'"));
     out.push("| | |\n|---|---|".to_owned());
     for (what, value) in [
         ("machine", cores),
         ("system", cell(&machine.system)),
+        ("instructions", cell(&machine.instructions)),
+        ("load", load),
         ("program", program),
+        ("commit", commit),
         ("seed", options.seed.to_string()),
         ("effort", effort.to_owned()),
         ("date", about.date.to_owned()),
@@ -99,9 +170,11 @@ fn about_text(about: &About<'_>, out: &mut Vec<String>) {
         out.push(format!("| {what} | {value} |"));
     }
     out.push(
-        "\nErrors depend on the seed alone; times are this machine's: medians over repeats after a \
-         warm-up, CPU time of the thread, with quartiles. ● is on the Pareto front: on its case \
-         nothing else is both cheaper and more exact.\n"
+        "\nErrors depend on the seed alone; times are this machine's: CPU time of the thread, the \
+         median of several processes' medians over repeats after a warm-up, with the smallest and \
+         the largest of them as the interval; of one process, the quartiles of its repeats. ● is on \
+         the Pareto front: on its case nothing else is both surely cheaper and as exact; surely is \
+         in every process. ○ is open: something more exact may be as cheap.\n"
             .to_owned(),
     );
 }

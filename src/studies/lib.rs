@@ -6,6 +6,7 @@
 //!
 //! ```text
 //! Study::run(Bench) ─▶ Findings (rows, plots, notes) ─▶ runner ─▶ CSV, SVG, PNG, index.md
+//!                                                  further processes ─┘     └─▶ report.json
 //! ```
 //!
 //! # Invariants
@@ -36,9 +37,12 @@ mod pareto;
 mod picture;
 mod readable;
 mod readers;
+mod record;
 mod rendering;
+mod rounds;
 mod runner;
 mod shading;
+mod since;
 mod spectral_model;
 mod stability;
 mod staircases;
@@ -52,9 +56,10 @@ mod write;
 
 pub use bench::{Bench, Effort, Timing};
 pub use error::ReportError;
-pub use pareto::pareto;
+pub use pareto::{Front, pareto};
 pub use rendering::{Running, ThisSceneStudy};
-pub use runner::{Options, Outcome, Report, Standing, choose, run};
+pub use rounds::times_alone;
+pub use runner::{Again, Options, Outcome, Report, Standing, choose, run};
 pub use study::{Findings, Row, Study};
 
 /// Every study of the floors below, in the order of the report.

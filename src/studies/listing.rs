@@ -4,7 +4,7 @@
 
 use super::readable::{self, bytes, number, time};
 use super::write::further_columns;
-use super::{Findings, Row, Study, Timing, pareto, write};
+use super::{Findings, Front, Row, Study, Timing, pareto, write};
 
 /// More rows than this are folded away below a plot.
 const ROWS_UNFOLDED: usize = 24;
@@ -19,7 +19,9 @@ pub(super) fn table(study: &Study, findings: &Findings, out: &mut Vec<String>) {
     let on_front = pareto(&findings.rows);
     let is_long = findings.rows.len() > ROWS_LISTED;
     let is_listed = |(index, row): &(usize, &Row)| {
-        !is_long || on_front[*index] == Some(true) || row.is_kept() == Some(false)
+        !is_long
+            || on_front[*index].is_some_and(|at| at != Front::Beaten)
+            || row.is_kept() == Some(false)
     };
     let rows: Vec<(usize, &Row)> = findings.rows.iter().enumerate().filter(is_listed).collect();
     let has_any = |column: &Column<'_>| rows.iter().any(|(i, row)| !column.1(*i, row).is_empty());
@@ -58,7 +60,7 @@ pub(super) fn table(study: &Study, findings: &Findings, out: &mut Vec<String>) {
 fn columns<'a>(
     study: &Study,
     findings: &Findings,
-    on_front: &'a [Option<bool>],
+    on_front: &'a [Option<Front>],
 ) -> Vec<Column<'a>> {
     let (measure, unit) = study.error;
     let of_error = |name: &str| match unit {
@@ -86,16 +88,20 @@ fn columns<'a>(
         column(&format!("CPU a {cost}"), move |_, row| {
             said(row, |t| time(t.cpu_s))
         }),
-        column("quartiles", move |_, row| {
-            said(row, |t| t.cpu_quartiles_s.map(time).join(" … "))
+        column("interval", move |_, row| {
+            said(row, |t| t.cpu_interval_s.map(time).join(" … "))
         }),
         column(&format!("wall a {cost}"), move |_, row| {
             said(row, |t| time(t.wall_s))
         }),
         column("memory", |_, row| row.bytes.map(bytes).unwrap_or_default()),
         column("front", move |index, _| {
-            let is_on_front = on_front[index] == Some(true);
-            if is_on_front { "●" } else { "" }.to_owned()
+            let mark = match on_front[index] {
+                Some(Front::On) => "●",
+                Some(Front::Open) => "○",
+                Some(Front::Beaten) | None => "",
+            };
+            mark.to_owned()
         }),
     ]);
     for name in further_columns(&findings.rows) {

@@ -1,6 +1,7 @@
 //! The machine and the program that a report was made with: times are theirs.
 
 use std::fs;
+use std::path::Path;
 use std::thread;
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -17,8 +18,14 @@ pub(crate) struct Machine {
     pub system: String,
     /// The program and its version.
     pub program: String,
-    /// What compiled it, as far as it is known.
+    /// What compiled it.
     pub compiler: String,
+    /// The commit of the checkout that the program stands in, if it does.
+    pub(crate) commit: Option<String>,
+    /// What of the processor's instructions the program may use, and what it has.
+    pub(crate) instructions: String,
+    /// Processes that wanted the machine in the minute before the report, and before its end.
+    pub(crate) loads: [Option<String>; 2],
     /// Whether it was compiled without optimisation, so that times say little.
     pub(crate) is_debug: bool,
 }
@@ -26,30 +33,91 @@ pub(crate) struct Machine {
 impl Machine {
     /// This machine and this program.
     pub(crate) fn here() -> Self {
-        let release = first_line("/proc/sys/kernel/osrelease").unwrap_or_default();
+        let release = first_line(Path::new("/proc/sys/kernel/osrelease")).unwrap_or_default();
         let (os, arch) = (std::env::consts::OS, std::env::consts::ARCH);
         Self {
             cpu: cpu_model().unwrap_or_else(|| "unknown processor".to_owned()),
             n_cores: thread::available_parallelism().map_or(1, usize::from),
             system: format!("{os} {release} {arch}").replace("  ", " "),
             program: selvedge_foundation::PROGRAM.to_owned(),
-            compiler: option_env!("RUSTUP_TOOLCHAIN").map_or_else(
-                || format!("Rust {} or later", env!("CARGO_PKG_RUST_VERSION")),
-                |toolchain| format!("Rust {toolchain}"),
-            ),
+            compiler: env!("SELVEDGE_COMPILER").to_owned(),
+            commit: std::env::current_exe()
+                .ok()
+                .and_then(|exe| commit_around(&exe)),
+            instructions: instructions(),
+            loads: [load(), None],
             is_debug: cfg!(debug_assertions),
         }
     }
+
+    /// Looks at the machine's load once more.
+    pub(crate) fn look_again(&mut self) {
+        self.loads[1] = load();
+    }
+}
+
+/// Instructions that numbers go faster by.
+const VECTORS: [&str; 6] = ["sse2", "sse4_2", "avx", "fma", "avx2", "avx512f"];
+
+/// What the program may use of the processor, and what that has beyond.
+fn instructions() -> String {
+    let used: Vec<&str> = env!("SELVEDGE_TARGET_FEATURES").split(',').collect();
+    let flags = cpu_line("flags").unwrap_or_default();
+    let flags: Vec<&str> = flags.split(' ').collect();
+    let (mut made_for, mut unused) = (Vec::new(), Vec::new());
+    for name in VECTORS {
+        if used.contains(&name.replace('_', ".").as_str()) {
+            made_for.push(name);
+        } else if flags.contains(&name) {
+            unused.push(name);
+        }
+    }
+    let words = |names: Vec<&str>| match names.as_slice() {
+        [] => "none known".to_owned(),
+        _ => names.join(", "),
+    };
+    format!(
+        "made for {}; the processor has beyond: {}",
+        words(made_for),
+        words(unused)
+    )
+}
+
+/// The commit that a checkout around this file stands at; whether anything was changed since it
+/// cannot tell.
+fn commit_around(file: &Path) -> Option<String> {
+    let folder = file.ancestors().map(|folder| folder.join(".git"));
+    let git = folder.into_iter().find(|git| git.is_dir())?;
+    let head = first_line(&git.join("HEAD"))?;
+    let Some(branch) = head.strip_prefix("ref: ") else {
+        return Some(head);
+    };
+    first_line(&git.join(branch)).or_else(|| {
+        let packed = fs::read_to_string(git.join("packed-refs")).ok()?;
+        let line = packed.lines().find(|line| line.ends_with(branch))?;
+        line.split(' ').next().map(str::to_owned)
+    })
+}
+
+/// How many processes wanted to run at once over the last minute.
+fn load() -> Option<String> {
+    let line = first_line(Path::new("/proc/loadavg"))?;
+    line.split(' ').next().map(str::to_owned)
 }
 
 fn cpu_model() -> Option<String> {
+    cpu_line("model name")
+}
+
+/// What the system says of the first processor.
+fn cpu_line(key: &str) -> Option<String> {
     let text = fs::read_to_string("/proc/cpuinfo").ok()?;
-    let line = text.lines().find(|line| line.starts_with("model name"))?;
+    let line = text.lines().find(|line| line.starts_with(key))?;
     let (_, name) = line.split_once(':')?;
     Some(name.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
-fn first_line(path: &str) -> Option<String> {
+fn first_line(path: &Path) -> Option<String> {
     let text = fs::read_to_string(path).ok()?;
     text.lines().next().map(str::to_owned)
 }
@@ -70,6 +138,7 @@ pub(super) fn now_utc() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use selvedge_scratch::ScratchFolder;
 
     #[test]
     fn a_machine_has_a_core_and_a_name() {
@@ -79,5 +148,21 @@ mod tests {
             "{machine:?}"
         );
         assert!(machine.program.starts_with("selvedge "), "{machine:?}");
+        assert!(machine.compiler.starts_with("rustc "), "{machine:?}");
+    }
+
+    #[test]
+    fn the_commit_is_that_of_the_checkout_around_the_program() {
+        let folder = ScratchFolder::made("machine");
+        let program = folder.join("target/release/selvedge");
+        assert_eq!(commit_around(&folder.join("elsewhere")), None);
+        fs::create_dir_all(folder.join(".git/refs/heads")).unwrap();
+        folder.write(".git/HEAD", "ref: refs/heads/main\n");
+        folder.write(".git/packed-refs", "abc123 refs/heads/main\n");
+        assert_eq!(commit_around(&program).as_deref(), Some("abc123"));
+        folder.write(".git/refs/heads/main", "def456\n");
+        assert_eq!(commit_around(&program).as_deref(), Some("def456"));
+        folder.write(".git/HEAD", "0123ab\n");
+        assert_eq!(commit_around(&program).as_deref(), Some("0123ab"));
     }
 }

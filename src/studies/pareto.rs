@@ -1,29 +1,57 @@
 //! The Pareto front: what no other row on the same case beats in both error and cost.
 //!
-//! A row that breaks its promise is not on it, however cheap: it answers another question.
+//! A row that breaks its promise is not on it, however cheap: it answers another question. Where
+//! times do not tell which of two rows is cheaper, the front is open there.
 
 use super::Row;
 
-/// For every row whether it is on the front of its case; `None` where error or cost is not known.
-pub fn pareto(rows: &[Row]) -> Vec<Option<bool>> {
-    let known: Vec<Option<(f64, f64)>> = rows.iter().map(error_and_cost).collect();
-    let is_beaten = |index: usize, (error, cost_s): (f64, f64)| {
-        rows.iter()
-            .zip(&known)
-            .enumerate()
-            .any(|(other, (row, at))| {
-                let is_rival = other != index && row.is_kept() != Some(false);
-                let is_same = row.case == rows[index].case && row.size == rows[index].size;
-                let beats =
-                    at.is_some_and(|(e, c)| e <= error && c <= cost_s && (e < error || c < cost_s));
-                is_rival && is_same && beats
-            })
+/// Where a row stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Front {
+    /// Nothing beats it.
+    On,
+    /// A more exact row may be as cheap: times do not tell.
+    Open,
+    /// Another row is surely cheaper and no less exact, or its promise is broken.
+    Beaten,
+}
+
+impl Front {
+    /// As tables spell it.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::On => "true",
+            Self::Open => "open",
+            Self::Beaten => "false",
+        }
+    }
+}
+
+/// For every row where it stands on its case; `None` where error or cost is not known.
+pub fn pareto(rows: &[Row]) -> Vec<Option<Front>> {
+    let judge = |(index, row): (usize, &Row)| {
+        let (error, _) = error_and_cost(row)?;
+        if row.is_kept() == Some(false) {
+            return Some(Front::Beaten);
+        }
+        let rivals = rows.iter().enumerate().filter(|(other, rival)| {
+            let is_same = rival.case == row.case && rival.size == row.size;
+            *other != index && is_same && rival.is_kept() != Some(false)
+        });
+        let mut front = Front::On;
+        for (_, rival) in rivals {
+            let Some((other_error, _)) = error_and_cost(rival).filter(|at| at.0 <= error) else {
+                continue;
+            };
+            match rival.cost?.is_cheaper_than(row.cost.as_ref()?) {
+                Some(true) => return Some(Front::Beaten),
+                None if other_error < error => front = Front::Open,
+                Some(false) | None => {}
+            }
+        }
+        Some(front)
     };
-    let judge = |(index, at): (usize, &Option<(f64, f64)>)| {
-        let at = (*at)?;
-        Some(rows[index].is_kept() != Some(false) && !is_beaten(index, at))
-    };
-    known.iter().enumerate().map(judge).collect()
+    rows.iter().enumerate().map(judge).collect()
 }
 
 /// The error and the cost in CPU seconds of a row that has both, as numbers.
@@ -42,12 +70,7 @@ pub(crate) mod tests {
         Row {
             case: case.to_owned(),
             error: Some(error),
-            cost: Some(Timing {
-                cpu_s,
-                cpu_quartiles_s: [cpu_s; 2],
-                wall_s: cpu_s,
-                n_repeats: 3,
-            }),
+            cost: Some(Timing::of(&mut [cpu_s; 3], &mut [cpu_s; 3])),
             ..Row::default()
         }
     }
@@ -63,7 +86,8 @@ pub(crate) mod tests {
             row("b", f64::NAN, 1.0),
             Row::default(),
         ];
-        let expected = [true, false, true, false, true].map(Some);
+        use Front::{Beaten, On};
+        let expected = [On, Beaten, On, Beaten, On].map(Some);
         assert_eq!(pareto(&rows)[..5], expected);
         assert_eq!(pareto(&rows)[5..], [None, None]);
     }
@@ -71,7 +95,7 @@ pub(crate) mod tests {
     #[test]
     fn equals_are_both_on_the_front() {
         let rows = [row("a", 0.1, 1.0), row("a", 0.1, 1.0)];
-        assert_eq!(pareto(&rows), [Some(true); 2]);
+        assert_eq!(pareto(&rows), [Some(Front::On); 2]);
     }
 
     #[test]
@@ -81,6 +105,22 @@ pub(crate) mod tests {
         let mut lying = row("a", 0.06, 0.2);
         lying.promised = Some(0.05);
         let rows = [wrong, lying, row("a", 0.07, 0.3)];
-        assert_eq!(pareto(&rows), [Some(false), Some(false), Some(true)]);
+        use Front::{Beaten, On};
+        assert_eq!(pareto(&rows), [Beaten, Beaten, On].map(Some));
+    }
+
+    #[test]
+    fn the_front_is_open_where_times_do_not_tell() {
+        let unsteady = |error: f64, cpu_s: [f64; 3]| Row {
+            cost: Some(Timing::of(&mut cpu_s.clone(), &mut [1.0])),
+            ..row("a", error, 1.0)
+        };
+        let rows = [
+            unsteady(0.2, [1.0, 2.0, 3.0]),
+            unsteady(0.1, [1.5, 2.5, 3.5]),
+            unsteady(0.3, [9.0, 9.0, 9.0]),
+        ];
+        use Front::{Beaten, On, Open};
+        assert_eq!(pareto(&rows), [Open, On, Beaten].map(Some));
     }
 }

@@ -1,4 +1,5 @@
-//! The runner: studies one by one, each kept as soon as it is done.
+//! The runner: studies one by one, each kept as soon as it is done; then their times once more in
+//! further processes.
 //!
 //! A study that fails or panics is noted and the next one runs; cancelling keeps what is finished.
 
@@ -7,6 +8,9 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use super::machine::{self, Machine};
+use super::record::{self, Record};
+use super::rounds::{self, N_PROCESSES};
+use super::since::Since;
 use super::{Bench, Effort, Findings, ReportError, Study, index, write};
 use selvedge_foundation::progress::{CancelFlag, Progress};
 
@@ -21,7 +25,13 @@ pub struct Options {
     pub seed: u64,
     /// The command that makes it again.
     pub command: String,
+    /// An earlier `report.json` to compare with.
+    pub against: Option<PathBuf>,
 }
+
+/// Runs a further process that measures studies of these names once more for their
+/// [times alone](super::times_alone), and hands back what it printed.
+pub type Again<'a> = dyn FnMut(&[&str]) -> Result<String, ReportError> + 'a;
 
 /// How far a report is.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,6 +69,10 @@ pub struct Report {
     pub(crate) outcomes: Vec<(&'static str, Outcome)>,
     /// Whether it was stopped.
     pub is_cancelled: bool,
+    /// Why times are of fewer processes than they should be.
+    pub(crate) trouble: Option<String>,
+    /// What changed since an earlier report.
+    pub(crate) since: Option<Since>,
 }
 
 impl Report {
@@ -101,20 +115,29 @@ pub fn choose(studies: Vec<Study>, only: &[String]) -> Result<Vec<Study>, Report
         .collect())
 }
 
-/// Runs studies one by one and writes the files of each when it is done, and the index each time.
+/// Share of the work that the first process does, if there are others.
+const FIRST: f64 = 0.5;
+
+/// Runs studies one by one and writes the files of each when it is done, and the index each time;
+/// then has their times measured in further processes, if it can, and writes all again.
 ///
 /// # Errors
-/// A file cannot be written. That a study fails, or that the report is stopped, is no error here:
-/// the report says so.
+/// A file cannot be written, or the earlier report not be read. That a study fails, or that the
+/// report is stopped, is no error here: the report says so.
 pub fn run(
     studies: &[Study],
     options: &Options,
     cancel: &CancelFlag,
+    again: Option<&mut Again<'_>>,
     heard: &mut dyn FnMut(&Standing<'_>),
 ) -> Result<Report, ReportError> {
-    let date = machine::now_utc();
-    let (machine, started) = (Machine::here(), Instant::now());
+    let old = options.against.as_deref().map(Record::read).transpose()?;
+    let mut machine = Machine::here();
+    let (date, started) = (machine::now_utc(), Instant::now());
+    let of_first = if again.is_some() { FIRST } else { 1.0 };
     let mut report = Report {
+        trouble: None,
+        since: None,
         outcomes: studies
             .iter()
             .map(|study| (study.name, Outcome::Stopped))
@@ -123,7 +146,7 @@ pub fn run(
     };
     for (nth, study) in studies.iter().enumerate() {
         let mut hear = |share: f64, doing: &str| {
-            let share = (nth as f64 + share) / studies.len() as f64;
+            let share = of_first * (nth as f64 + share) / studies.len() as f64;
             heard(&Standing {
                 share,
                 study: study.name,
@@ -147,30 +170,124 @@ pub fn run(
             options,
             date: &date,
         };
-        write::text(
-            "index.md",
-            &options.out,
-            &index::text(studies, &report, &about),
-        )?;
+        index::write(studies, &report, &about)?;
         if report.is_cancelled {
             break;
         }
     }
+    if let Some(again) = again.filter(|_| !report.is_cancelled) {
+        let mut hear = |nth: usize, doing: &str| {
+            let share = FIRST + (1.0 - FIRST) * nth as f64 / N_PROCESSES as f64;
+            heard(&Standing {
+                share,
+                study: "times",
+                doing,
+                left: time_left(started.elapsed(), share),
+            });
+        };
+        measure_again(studies, &mut report, again, &mut hear);
+        report.is_cancelled |= cancel.is_cancelled();
+        for (study, (_, outcome)) in studies.iter().zip(&report.outcomes) {
+            if let Outcome::Done { findings, .. } = outcome {
+                write::findings(study, findings, &options.out)?;
+            }
+        }
+    }
+    machine.look_again();
+    let record = record_of(&report, &machine.program, &date, options);
+    report.since = old.map(|old| Since::between(&old, &record));
+    write::text(record::NAME, &options.out, &record.to_json()?)?;
+    let about = index::About {
+        machine: &machine,
+        options,
+        date: &date,
+    };
+    index::write(studies, &report, &about)?;
     Ok(report)
+}
+
+/// Has the times of all studies that have any measured by further processes, one after the other,
+/// and joins what they found. Studies whose work is so long that it is timed once stay as they are.
+/// A process that fails ends it, and is told.
+fn measure_again(
+    studies: &[Study],
+    report: &mut Report,
+    again: &mut Again<'_>,
+    hear: &mut dyn FnMut(usize, &str),
+) {
+    let is_timed = |outcome: &Outcome| match outcome {
+        Outcome::Done { findings, .. } => {
+            let costs = findings.rows.iter().filter_map(|row| row.cost);
+            costs.into_iter().any(|cost| cost.n_repeats > 1)
+        }
+        _ => false,
+    };
+    let timed = studies.iter().zip(&report.outcomes);
+    let timed = timed.filter(|(_, (_, outcome))| is_timed(outcome));
+    let names: Vec<&str> = timed.map(|(study, _)| study.name).collect();
+    let mut records = Vec::new();
+    for nth in 1..N_PROCESSES {
+        if names.is_empty() {
+            return;
+        }
+        hear(nth, &format!("process {} of {N_PROCESSES}", nth + 1));
+        match again(&names).and_then(|text| Record::parse(&text)) {
+            Ok(record) => records.push(record),
+            Err(error) => {
+                let why = format!("process {} of {N_PROCESSES}: {error}", nth + 1);
+                report.trouble = Some(why);
+                break;
+            }
+        }
+    }
+    for (name, outcome) in &mut report.outcomes {
+        if let Outcome::Done { findings, .. } = outcome
+            && names.contains(name)
+        {
+            let n_missing = rounds::join(name, findings, &records);
+            if n_missing > 0 {
+                let words = format!("{n_missing} rows were not timed by every process.");
+                findings.notes.push(words);
+            }
+        }
+    }
+}
+
+fn record_of(report: &Report, program: &str, date: &str, options: &Options) -> Record {
+    let mut record = Record {
+        program: program.to_owned(),
+        date: date.to_owned(),
+        effort: options.effort.word().to_owned(),
+        seed: options.seed,
+        rows: Vec::new(),
+    };
+    for (name, outcome) in &report.outcomes {
+        if let Outcome::Done { findings, .. } = outcome {
+            record.add(name, findings);
+        }
+    }
+    record
 }
 
 fn one(study: &Study, options: &Options, progress: &mut Progress<'_>) -> Outcome {
     let started = Instant::now();
     let mut bench = Bench::new(options.effort, options.seed, progress);
-    match catch_unwind(AssertUnwindSafe(|| (study.run)(&mut bench))) {
-        Ok(Ok(findings)) => Outcome::Done {
+    match guarded(study, &mut bench) {
+        Ok(findings) => Outcome::Done {
             findings,
             took: started.elapsed(),
         },
-        Ok(Err(ReportError::Cancelled)) => Outcome::Stopped,
-        Ok(Err(error)) => Outcome::Failed(error.to_string()),
-        Err(panic) => Outcome::Failed(format!("it panicked: {}", message_of(panic.as_ref()))),
+        Err(ReportError::Cancelled) => Outcome::Stopped,
+        Err(error) => Outcome::Failed(error.to_string()),
     }
+}
+
+/// Runs a study; one that panics has failed.
+pub(super) fn guarded(study: &Study, bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
+    catch_unwind(AssertUnwindSafe(|| (study.run)(bench))).unwrap_or_else(|panic| {
+        let why = format!("it panicked: {}", message_of(panic.as_ref()));
+        Err(ReportError::Study(why))
+    })
 }
 
 /// What a panic said.

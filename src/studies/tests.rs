@@ -77,15 +77,16 @@ fn run_in(folder: &Path, studies: &[Study], cancel: &CancelFlag) -> (Report, Vec
         effort: Effort::Quick,
         seed: 7,
         command: "selvedge report --out x --quick --seed 7".to_owned(),
+        against: None,
     };
     let mut shares = Vec::new();
-    let report = run(studies, &options, cancel, &mut |standing| {
+    let report = run(studies, &options, cancel, None, &mut |standing| {
         shares.push(standing.share);
     });
     (report.unwrap(), shares)
 }
 
-const COLUMNS: [&str; 16] = [
+const COLUMNS: [&str; 17] = [
     "method",
     "setting",
     "case",
@@ -95,10 +96,11 @@ const COLUMNS: [&str; 16] = [
     "promised_db",
     "kept",
     "cpu_s",
-    "cpu_q25_s",
-    "cpu_q75_s",
+    "cpu_low_s",
+    "cpu_high_s",
     "wall_s",
     "n_repeats",
+    "n_processes",
     "bytes",
     "pareto",
     "nodes_per_octave",
@@ -132,6 +134,12 @@ fn a_wrong_method_shows_up_as_wrong() {
                   - wrong, f32, \"fast\", silk\\|crêpe: 3.00 dB where \
                   0.0500 dB is promised";
     assert!(index.contains(broken), "{index}");
+    assert!(
+        index.contains(
+            "| [made-up](#made-up) | Which way is best? | **2 of 3** | 3.00 of 0.0500 dB |"
+        ),
+        "{index}"
+    );
     let (top, rest) = index.split_once("## Made up").unwrap();
     assert!(
         top.contains("Broken promises"),
@@ -170,7 +178,10 @@ fn the_table_holds_what_the_plot_shows() {
         .filter(|series| !series.name.starts_with("promised"))
     {
         let of_method = rows.clone().filter(|(method, ..)| *method == series.name);
-        let (points, marks): (Vec<_>, Vec<_>) = of_method.map(|(_, at, front)| (at, front)).unzip();
+        let mut of_method: Vec<_> = of_method.map(|(_, at, front)| (at, front)).collect();
+        // One case: its rows in the order of what they cost.
+        of_method.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+        let (points, marks): (Vec<_>, Vec<_>) = of_method.into_iter().unzip();
         assert_eq!(series.points, points, "{}", series.name);
         let marked: Vec<usize> = (0..marks.len()).filter(|i| marks[*i]).collect();
         assert_eq!(series.marked, marked, "{}", series.name);
@@ -258,8 +269,9 @@ fn a_cancelled_report_keeps_what_is_finished() {
         effort: Effort::Full,
         seed: 1,
         command: String::new(),
+        against: None,
     };
-    let report = run(&studies, &options, &cancel, &mut |standing| {
+    let report = run(&studies, &options, &cancel, None, &mut |standing| {
         if standing.doing == "halfway" {
             cancel.cancel();
         }
@@ -295,4 +307,66 @@ fn names_of_studies_are_distinct_and_fit_files() {
             "{name}"
         );
     }
+}
+
+#[test]
+fn further_processes_are_asked_for_times_and_an_old_report_is_compared_with() {
+    let folder = ScratchFolder::made("runner");
+    let studies = [
+        made_up("made-up", one_is_wrong),
+        made_up("untimed", |_| Ok(Findings::default())),
+    ];
+    let mut options = Options {
+        out: folder.to_owned(),
+        effort: Effort::Quick,
+        seed: 7,
+        command: String::new(),
+        against: None,
+    };
+    let cancel = CancelFlag::new();
+    let mut asked = Vec::new();
+    let mut again = |names: &[&str]| {
+        asked.push(names.join(" "));
+        times_alone(&studies[..1], (Effort::Quick, 7), &cancel)
+    };
+    run(&studies, &options, &cancel, Some(&mut again), &mut |_| {}).unwrap();
+    assert_eq!(asked, ["made-up"; 4], "what has no times is not asked for");
+    let path = folder.join("made-up.csv");
+    let read = |folder: &ScratchFolder| {
+        Table::read(&folder.read("made-up.csv"), &path, &COLUMNS, &[]).unwrap()
+    };
+    assert_eq!(read(&folder).text("n_processes").unwrap(), ["5"; 4]);
+    assert_eq!(read(&folder).text("n_repeats").unwrap(), ["15"; 4]);
+
+    options.against = Some(folder.join("report.json"));
+    let mut fails = |_: &[&str]| Err(ReportError::Study("no memory".to_owned()));
+    let report = run(&studies, &options, &cancel, Some(&mut fails), &mut |_| {}).unwrap();
+    let since = report.since.unwrap();
+    assert_eq!((since.n_compared, since.n_alone), (4, 0));
+    assert!(since.slower.is_empty() && since.less_exact.is_empty());
+    assert_eq!(read(&folder).text("n_processes").unwrap(), ["1"; 4]);
+    let index = folder.read("index.md");
+    assert!(index.contains("process 2 of 5: no memory"), "{index}");
+    options.against = Some(folder.join("nowhere.json"));
+    let refused = run(&studies, &options, &cancel, None, &mut |_| {});
+    assert!(refused.unwrap_err().to_string().contains("nowhere.json"));
+}
+
+#[test]
+fn a_line_joins_the_settings_of_a_method_on_one_case_alone() {
+    let study = made_up("made-up", one_is_wrong);
+    let findings = Findings {
+        rows: vec![row("a", 0.1, 2.0), row("b", 0.3, 1.0), row("a", 0.2, 1.0)],
+        ..Findings::default()
+    };
+    let plot = chart::error_against_time(&study, &findings).unwrap();
+    let [series] = &plot.series[..] else {
+        panic!("{:?}", plot.series);
+    };
+    assert_eq!(series.points[..2], [[1.0, 0.2], [2.0, 0.1]]);
+    assert!(series.points[2][0].is_nan());
+    assert_eq!((series.points[3], series.points.len()), ([1.0, 0.3], 4));
+    assert_eq!(series.marked, [0, 1, 3]);
+    let svg = plot.to_svg();
+    assert!(!svg.contains("left out"), "a break is no point");
 }

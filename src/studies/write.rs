@@ -6,7 +6,7 @@
 use std::path::Path;
 
 use super::chart::error_against_time;
-use super::{Findings, ReportError, Row, Study, pareto};
+use super::{Findings, Front, ReportError, Row, Study, pareto};
 use selvedge_chart::Chart;
 use selvedge_foundation::files::{TableWriter, encode_png_rgba, write_atomic};
 
@@ -48,7 +48,7 @@ pub(super) fn text(name: &str, out: &Path, text: &str) -> Result<(), ReportError
 }
 
 /// Columns that every study has; those of errors end with the study's unit.
-const COLUMNS: [&str; 15] = [
+const COLUMNS: [&str; 16] = [
     "method",
     "setting",
     "case",
@@ -58,10 +58,11 @@ const COLUMNS: [&str; 15] = [
     "promised",
     "kept",
     "cpu_s",
-    "cpu_q25_s",
-    "cpu_q75_s",
+    "cpu_low_s",
+    "cpu_high_s",
     "wall_s",
     "n_repeats",
+    "n_processes",
     "bytes",
     "pareto",
 ];
@@ -108,15 +109,16 @@ fn csv_of(study: &Study, findings: &Findings, path: &Path) -> Result<String, Rep
         }
         optional(&mut table, row.is_kept());
         let timing = row.cost.map(|cost| {
-            let [low_s, high_s] = cost.cpu_quartiles_s;
+            let [low_s, high_s] = cost.cpu_interval_s;
             [cost.cpu_s, low_s, high_s, cost.wall_s]
         });
         for nth in 0..4 {
             optional(&mut table, timing.map(|timing| timing[nth]));
         }
         optional(&mut table, row.cost.map(|cost| cost.n_repeats));
+        optional(&mut table, row.cost.map(|cost| cost.n_processes()));
         optional(&mut table, row.bytes);
-        optional(&mut table, is_on_front);
+        optional(&mut table, is_on_front.map(Front::word));
         for name in &further {
             table.text(row.further(name));
         }

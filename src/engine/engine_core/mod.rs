@@ -19,8 +19,8 @@ use super::recording::{LinkTally, RecordedTick, Recorder};
 use super::sequence::Sequence;
 use super::track::Track;
 use super::{
-    EngineError, InputRate, InputSource, Notice, Playback, Played, PreparedScene, RecordingView,
-    RenderingView, Snapshot, SourceKind, VelocityMethod,
+    ClothDrive, EngineError, InputRate, InputSource, Notice, Playback, Played, PreparedScene,
+    RecordingView, RenderingView, Snapshot, SourceKind, VelocityMethod,
 };
 use selvedge_device::{Coder, LinkScale, SentFrame};
 use selvedge_render::scene::Pose;
@@ -54,6 +54,7 @@ pub struct EngineCore {
     /// What is felt in place of the whole scene.
     sequence: Sequence,
     stylus: FeltStylus,
+    cloth: Option<Box<ClothDrive>>,
     revision: u64,
 }
 
@@ -85,6 +86,7 @@ impl EngineCore {
             mask: Vec::new(),
             sequence: Sequence::default(),
             stylus: FeltStylus::default(),
+            cloth: None,
             revision: 0,
         };
         core.render_again();
@@ -163,14 +165,25 @@ impl EngineCore {
         self.fingers.follow((&self.pose, self.has_ended), now, told);
         let played = self.sequence.next_tick();
         self.lead_stylus();
+        if let Some(cloth) = &mut self.cloth {
+            cloth.next_tick();
+        }
         self.render(played);
         self.tick += 1;
     }
 
     fn render(&mut self, played: Option<Played>) {
-        let poses = (self.rendered, self.fingers.rendered(self.is_stopped));
+        // What the scene would give is not looked up while a cloth is felt in its place.
+        let cloth = self.cloth.as_ref().filter(|_| played.is_none());
+        let cloth = cloth.map(|cloth| cloth.felt());
+        let (pose, rests) = match cloth {
+            Some(_) => (self.rendered.at_rest(), true),
+            None => (self.rendered, self.is_stopped),
+        };
+        let poses = (pose, self.fingers.rendered(rests));
         let first = (played, self.stylus.driven());
-        self.scene.render(poses, &self.mask, first);
+        let cloth = cloth.filter(|_| !self.is_stopped);
+        self.scene.render(poses, &self.mask, first, cloth.as_ref());
     }
 
     /// Renders the last tick anew, after something else than the pose changed.
@@ -311,6 +324,7 @@ impl EngineCore {
         snapshot.playback = self.playback();
         snapshot.recording = self.recording_view();
         snapshot.stylus = self.stylus();
+        snapshot.is_cloth = self.cloth.is_some();
         snapshot.counters.stylus_steps = self.stylus.n_steps();
         snapshot.counters.ignored = self.ignored;
     }

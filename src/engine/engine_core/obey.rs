@@ -68,12 +68,18 @@ impl EngineCore {
                 retired[0] = self.stylus.exchange(next).map(Retired::Stylus);
                 self.revision += 1;
             }
+            CoreCommand::Cloth(next) => {
+                retired[0] = std::mem::replace(&mut self.cloth, next).map(Retired::Cloth);
+                self.revision += 1;
+            }
             CoreCommand::Source(source) => retired[0] = self.set_source(source),
             CoreCommand::Angle(angle_deg) => self.set_angle(angle_deg, say),
             CoreCommand::Turn(by_deg) => self.set_angle(self.angle_deg + by_deg, say),
             CoreCommand::Control(control) => self.control(control),
             CoreCommand::Record(recorder) => {
                 retired[0] = self.end_recording();
+                // A recording's amplitudes are those of its rows on the scene.
+                retired[1] = self.cloth.take().map(Retired::Cloth);
                 self.recorder = Some(recorder);
             }
             CoreCommand::EndRecording => retired[0] = self.end_recording(),

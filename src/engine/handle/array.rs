@@ -15,6 +15,8 @@ pub(super) struct DrivenArray {
     pub(super) n_contactors: usize,
     /// Contactors of the first display: those that a device plays.
     pub(super) n_felt: usize,
+    /// Those of the second.
+    pub(super) n_second: usize,
     /// The profile in force.
     pub(super) profile: ArrayProfile,
     of_scene: ArrayProfile,
@@ -28,23 +30,28 @@ impl DrivenArray {
             n_others: n_others(scene.n_displays()),
             n_contactors: scene.n_contactors(),
             n_felt: scene.n_felt(),
+            n_second: scene.n_felt_of(1),
             profile: scene.profile().clone(),
             of_scene: scene.profile().clone(),
             chosen: None,
         }
     }
 
-    /// Follows another scene, which is driven as the chosen array if that fits. Says whether its
-    /// first display has another number of contactors.
-    pub(super) fn follow(&mut self, scene: &mut PreparedScene) -> bool {
+    /// Follows another scene, which is driven as the chosen array if that fits. Says of its first
+    /// two displays whether they have another number of contactors.
+    pub(super) fn follow(&mut self, scene: &mut PreparedScene) -> [bool; 2] {
         self.of_scene = scene.profile().clone();
         if let Some(chosen) = &self.chosen {
             scene.drive_as(chosen);
         }
-        let is_other = scene.n_felt() != self.n_felt;
+        let is_other = [
+            scene.n_felt() != self.n_felt,
+            scene.n_felt_of(1) != self.n_second,
+        ];
         self.n_others = n_others(scene.n_displays());
         self.n_contactors = scene.n_contactors();
         self.n_felt = scene.n_felt();
+        self.n_second = scene.n_felt_of(1);
         self.profile = scene.profile().clone();
         is_other
     }
@@ -58,7 +65,17 @@ impl DrivenArray {
         self.profile = profile.clone();
         ReadyCommand::Array(Box::new(NextArray {
             coder: Coder::new(&profile, self.n_felt),
+            second: ArrayChange::new(self.of_second(), self.n_felt),
             change: ArrayChange::new(profile, self.n_felt),
         }))
+    }
+
+    /// The second display's: as the first, but for what was measured of that one device.
+    pub(super) fn of_second(&self) -> ArrayProfile {
+        ArrayProfile {
+            calibration: Vec::new(),
+            wiring: None,
+            ..self.profile.clone()
+        }
     }
 }

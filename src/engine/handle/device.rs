@@ -1,4 +1,5 @@
-//! The device that was connected last: what its emulated contactors do, and the log of its link.
+//! The devices that were connected last: what emulated contactors of the first do, and the log of
+//! their links.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -22,31 +23,38 @@ pub(super) struct DeviceHandle {
 }
 
 impl DeviceHandle {
-    /// Begins to open a device. The switch stops it from now on, and its link wakes the engine.
+    /// Begins to open a device for the first or second display. The switch stops it from now on, and its link wakes the engine.
     pub(super) fn open(
         &mut self,
-        target: Target,
+        (display, target): (usize, Target),
         driven: &DrivenArray,
         (switch, told): (&StopSwitch, Option<Instant>),
     ) -> ReadyCommand {
         let waker = switch.clone();
         let wake = move || waker.wake_engine();
-        let (profile, n_felt) = (driven.profile.clone(), driven.n_felt);
+        let n_felt = driven.n_felt;
+        let profile = match display {
+            0 => driven.profile.clone(),
+            _ => driven.of_second(),
+        };
+        let about = profile.clone();
         let mut bridge = match told.filter(|_| self.is_stepped) {
             Some(now) => Bridge::open_stepped(target, profile, n_felt, now, wake),
             None => Bridge::open(target, profile, n_felt, wake),
         };
-        self.actuators = bridge.take_actuators();
+        if display == 0 {
+            self.actuators = bridge.take_actuators();
+        }
         if let Some(log) = &self.session_log {
             let mut feed = bridge.feed_of(log);
-            feed.about_array(&driven.profile);
+            feed.about_array(&about);
             for (name, value) in &self.said {
                 feed.about(name, value);
             }
             bridge.log_to(feed);
         }
-        switch.set_device(bridge.stop_handle());
-        ReadyCommand::Connect(Box::new(bridge))
+        switch.set_device(display, bridge.stop_handle());
+        ReadyCommand::Connect(display, Some(Box::new(bridge)))
     }
 
     /// Says what is felt to the link that is open, and to those to come.

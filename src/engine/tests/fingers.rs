@@ -7,7 +7,7 @@ use selvedge_render::{Counters, Replay, replay};
 use std::ops::ControlFlow;
 
 /// The same cloth under so many displays of the same shape.
-fn with_displays(n_displays: usize) -> (Engine, PointerSender, Instant) {
+pub(super) fn with_displays(n_displays: usize) -> (Engine, PointerSender, Instant) {
     let mut scene = render_scene(exeter());
     scene.displays = vec![scene.displays[0].clone(); n_displays];
     let how = (Method::Auto, &Accuracy::default());
@@ -31,7 +31,12 @@ fn at(finger: usize, t_s: f64) -> Point {
 }
 
 /// Hands over what a finger does from one tick to the next, every 8 ms.
-fn stroke(pointer: &mut PointerSender, (display, finger): (usize, usize), start: Instant, n: u32) {
+pub(super) fn stroke(
+    pointer: &mut PointerSender,
+    (display, finger): (usize, usize),
+    start: Instant,
+    n: u32,
+) {
     for k in 0..3 {
         let since = TICK * n + Duration::from_millis(8) * k;
         let (stamp, position) = (start + since, at(finger, since.as_secs_f64()));

@@ -2,6 +2,7 @@
 
 mod array;
 mod clip;
+mod cloth;
 mod commands;
 mod device;
 mod exact;
@@ -9,6 +10,7 @@ mod fingers;
 mod headroom;
 mod lift;
 mod mask;
+mod second;
 mod seek;
 mod sequence;
 mod shown;

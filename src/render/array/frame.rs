@@ -101,6 +101,17 @@ impl DisplayFrame {
         self.exact_um.fill(amplitude_um.map(f64::from));
     }
 
+    /// Gives contactors amplitudes of their own, µm; those beyond the end of the list are silent.
+    pub(super) fn give(&mut self, amplitudes_um: impl Iterator<Item = [f64; 2]>) {
+        self.begin();
+        for (contactor, given) in amplitudes_um.take(self.n_contactors()).enumerate() {
+            self.amplitudes_um[contactor] = given.map(crate::single);
+            if let Some(exact) = self.exact_um.get_mut(contactor) {
+                *exact = given;
+            }
+        }
+    }
+
     /// Rounds the exact amplitudes into the stream.
     pub(super) fn round(&mut self) {
         for (rounded, exact) in self.amplitudes_um.iter_mut().zip(&self.exact_um) {

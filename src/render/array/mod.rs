@@ -242,6 +242,17 @@ impl ArrayRenderer {
         self.vibrate_display(display, amplitude_um);
     }
 
+    /// Gives the contactors of one display amplitudes [A40, A320] that something else made, before
+    /// the gains of master and bands, µm peak; those beyond the end of the list are silent.
+    pub fn give_display(&mut self, display: usize, amplitudes_um: &[[f64; 2]]) {
+        let factors = self.gains.plain_factors();
+        if let Some(frame) = self.frames.get_mut(display) {
+            let tuned = |um: &[f64; 2]| [0, 1].map(|band| factors[band] * um[band]);
+            frame.give(amplitudes_um.iter().map(tuned));
+            self.displays[display].forget();
+        }
+    }
+
     /// The surfaces of the textiles, in the order of the scene's list.
     pub fn surfaces(&self) -> impl ExactSizeIterator<Item = &Arc<Surface>> {
         self.plan.textiles.iter().map(|textile| &textile.surface)

@@ -272,13 +272,8 @@ fn timed_once<T, E>(n_units: f64, work: impl FnOnce() -> Result<T, E>) -> Result
     let (start_s, start) = (thread_cpu_seconds(), Instant::now());
     let done = work()?;
     let cpu_s = (thread_cpu_seconds() - start_s) / n_units;
-    let timing = Timing {
-        cpu_s,
-        cpu_quartiles_s: [cpu_s; 2],
-        wall_s: start.elapsed().as_secs_f64() / n_units,
-        n_repeats: 1,
-    };
-    Ok((done, timing))
+    let wall_s = start.elapsed().as_secs_f64() / n_units;
+    Ok((done, Timing::of(&mut [cpu_s], &mut [wall_s])))
 }
 
 /// What a second of a cloth at rest costs, awake and asleep.

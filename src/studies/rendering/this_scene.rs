@@ -198,7 +198,11 @@ mod tests {
         assert_eq!(found.rows[0].error, Some(0.0), "reference against itself");
         assert_eq!(found.n_broken(), 0);
         let front = pareto(&found.rows);
-        assert_eq!(front[0], Some(true), "nothing beats an error of 0");
+        assert_eq!(
+            front[0],
+            Some(crate::Front::On),
+            "nothing beats an error of 0"
+        );
         assert!(found.notes[0].contains("192 poses"), "{:?}", found.notes);
     }
 

@@ -34,16 +34,17 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
     let checkpoints = &CHECKPOINTS[..n_checkpoints];
     let observers = Observer::all();
     let mut findings = Findings::default();
+    let costs: Vec<Cost> = (WAYS.iter().map(|way| cost(bench, *way))).collect::<Result<_, _>>()?;
     for (number, observer) in observers.iter().enumerate() {
-        for (nth, way) in WAYS.into_iter().enumerate() {
+        for (nth, (way, cost)) in WAYS.into_iter().zip(&costs).enumerate() {
             let n_done = number * WAYS.len() + nth;
             let share = n_done as f64 / (observers.len() * WAYS.len()) as f64;
             bench.step(share, way.name)?;
-            let cost = cost(bench, way)?;
+            let n_runs = if bench.wants_errors() { n_runs } else { 1 };
             let errors = errors(way, observer, checkpoints, n_runs, bench.seed);
             for (at, n_trials) in checkpoints.iter().enumerate() {
                 let tally = Tally::of(errors.iter().map(|run| run[at]));
-                let row = tally.row(way, observer, *n_trials, cost);
+                let row = tally.row(way, observer, *n_trials, *cost);
                 findings.rows.push(row);
             }
         }
@@ -125,20 +126,9 @@ fn cost(bench: &Bench<'_>, way: Way) -> Result<Cost, ReportError> {
     let n_trials = 80;
     let run = || way.run(observer, n_trials, (3, 0));
     let done = run()?;
-    let making = bench.time_repeated(3, 1, || (way.session)((3, 0), n_trials).is_ok());
-    let all = bench.time_repeated(3, 1, || run().is_ok());
+    let making = || (way.session)((3, 0), n_trials).is_ok();
+    let trial = bench.time_beyond(n_trials as usize, || run().is_ok(), making);
     let estimate = bench.time_repeated(3, 1, || way.threshold_db(&done).is_ok());
-    let each = |all_s: f64, making_s: f64| (all_s - making_s).max(0.0) / f64::from(n_trials);
-    let quartile = |q: usize| each(all.cpu_quartiles_s[q], making.cpu_quartiles_s[q]);
-    // Of two runs that differ by chance more than by the trials, either quartile may be the larger.
-    let mut quartiles_s = [quartile(0), quartile(1)];
-    quartiles_s.sort_by(f64::total_cmp);
-    let trial = Timing {
-        cpu_s: each(all.cpu_s, making.cpu_s),
-        cpu_quartiles_s: quartiles_s,
-        wall_s: each(all.wall_s, making.wall_s),
-        n_repeats: all.n_repeats,
-    };
     Ok([trial, estimate])
 }
 

@@ -23,6 +23,15 @@ impl Bench {
                 self.device.faults = None;
                 self.send(selvedge_engine::Command::Disconnect);
             }
+            DeviceCommand::ConnectSecond(path) => {
+                let target = path.map_or(Target::Emulator, Target::Port);
+                self.device.second = Some(query::device_name(&target));
+                self.send(selvedge_engine::Command::ConnectSecond(target));
+            }
+            DeviceCommand::DisconnectSecond => {
+                self.device.second = None;
+                self.send(selvedge_engine::Command::DisconnectSecond);
+            }
             DeviceCommand::Array(command) => self.dispatch_array(command),
             DeviceCommand::ClearFaults => self.send(selvedge_engine::Command::ClearFaults),
             DeviceCommand::CopyLogPath => {

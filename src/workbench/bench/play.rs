@@ -1,4 +1,4 @@
-//! What moves the display, recording it, and the stylus that may be felt through it.
+//! What moves the display, recording it, and what may be felt through it in place of the scene.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use crate::bench::Bench;
 use crate::bench::command::{PlayCommand, PlaySource};
 use crate::bench::notices::Until;
 use crate::bench::view::Source;
-use selvedge_engine::InputSource;
+use selvedge_engine::{ClothDrive, InputSource};
 use selvedge_foundation::geometry::Point;
 use selvedge_render::scene::{Scene, Stroke};
 use selvedge_render::stylus::StylusDrive;
@@ -101,6 +101,16 @@ impl Bench {
             self.engine.say_what("stylus", said);
         }
         self.device.stylus = words;
+    }
+
+    /// Lets the engine feel a cloth that hangs, told in a line, or the scene again; the log of links
+    /// hears which.
+    pub(crate) fn feel_cloth(&mut self, cloth: Option<(ClothDrive, String)>) {
+        let (drive, words) = cloth.unzip();
+        self.send(selvedge_engine::Command::SetCloth(drive.map(Box::new)));
+        let said = words.clone().unwrap_or_else(|| "off".to_owned());
+        self.engine.say_what("cloth", said);
+        self.device.cloth = words;
     }
 
     fn explore_alone(&mut self) {

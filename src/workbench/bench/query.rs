@@ -129,10 +129,15 @@ pub(crate) fn live_view(
         input: input_view(&snapshot.pointer),
         sequence_step: snapshot.sequence_step,
         stylus: snapshot.stylus,
+        is_cloth: snapshot.is_cloth,
         bridge: snapshot
             .link
             .as_ref()
             .map(|link| bridge_view(link, frame_interval_s)),
+        second_bridge: snapshot
+            .second_link
+            .as_ref()
+            .map(|link| bridge_view(link, None)),
     }
 }
 
@@ -255,12 +260,13 @@ pub(crate) fn phase(state: BridgeState) -> BridgePhase {
 pub(crate) fn words(notice: &Notice, device: &str) -> Option<(Until, String)> {
     match notice {
         Notice::Bridge(event) => bridge_words(event, device),
+        Notice::SecondBridge(event) => bridge_words(event, "The second display’s device"),
         Notice::Refused(why) => Some((Until::Armed, capitalised(why))),
         Notice::RecordingEnded(why) => Some((Until::PutAway, capitalised(why))),
         Notice::GainIgnored(error) => Some((Until::PutAway, capitalised(&error.to_string()))),
         Notice::DisplayChanged => {
-            let words = "This scene's display has another number of contactors: the device was let \
-                         go; connect it again";
+            let words = "A display of this scene has another number of contactors: its device was \
+                         let go; connect it again";
             Some((Until::Ready, words.to_owned()))
         }
         Notice::Stopped | Notice::SourceEnded | Notice::ArrayWaits => None,

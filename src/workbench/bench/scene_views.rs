@@ -28,7 +28,7 @@ impl Bench {
     pub(crate) fn rendered_origin(&self) -> Origin {
         let status = &self.live.status;
         let origin = self.origin().by_method(status.method, status.bound_db);
-        match &self.device.stylus {
+        match self.device.cloth.as_ref().or(self.device.stylus.as_ref()) {
             Some(words) => origin.and("felt_in_place_of_array", words, words),
             None => origin,
         }

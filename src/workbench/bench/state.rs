@@ -140,6 +140,8 @@ pub(crate) struct Files {
 pub(crate) struct DeviceState {
     /// What the link was last opened to.
     pub(crate) target: Option<String>,
+    /// What that of the second display was last opened to.
+    pub(crate) second: Option<String>,
     /// The share of full scale that no amplitude exceeds whatever a profile allows.
     pub(crate) ceiling: Option<f64>,
     /// What devices are taken to drive.
@@ -156,6 +158,8 @@ pub(crate) struct DeviceState {
     pub(crate) sound: Sound,
     /// The stylus that drives it in place of the array, in a line.
     pub(crate) stylus: Option<String>,
+    /// The cloth that hangs and is felt in place of the scene, in a line.
+    pub(crate) cloth: Option<String>,
 }
 
 /// What was felt lately.

@@ -185,8 +185,12 @@ pub(crate) struct EngineView {
     pub(crate) sequence_step: Option<u16>,
     /// What the stylus does that is felt in place of the array; `None`: the array is felt.
     pub(crate) stylus: Option<StylusState>,
+    /// Whether a cloth that hangs is felt in place of the scene.
+    pub(crate) is_cloth: bool,
     /// The device.
     pub bridge: Option<BridgeView>,
+    /// That of the second display.
+    pub(crate) second_bridge: Option<BridgeView>,
 }
 
 /// A display that the panes do not look at: drawn over the cloth alone.

@@ -59,7 +59,7 @@ pub(crate) fn show(
             show_escape(ui, bench, commands);
             show_armed(ui, &bench.live);
             show_sound(ui, bench, commands);
-            show_stylus(ui, &bench.live, commands);
+            show_in_place(ui, &bench.live, commands);
             ui.add_space(2.0 * STEP);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 show_name(ui, scene);
@@ -161,12 +161,18 @@ fn show_escape(ui: &mut Ui, bench: &Bench, commands: &mut Commands) {
     }
 }
 
-/// That a stylus is felt in place of the array, and the way to where that is switched.
-fn show_stylus(ui: &mut Ui, live: &EngineView, commands: &mut Commands) {
+/// That something else is felt in place of the array on the scene, and the way to where that is
+/// switched.
+fn show_in_place(ui: &mut Ui, live: &EngineView, commands: &mut Commands) {
     let tip = "What is felt is the stylus’ vibration, not the array’s rendering; the Stylus pane \
                switches it off";
     if live.stylus.is_some() && button(ui, "Stylus felt", tip, None) {
         commands.push(ShowCommand::Reveal(Pane::Stylus).into());
+    }
+    let tip = "What is felt is the cloth that hangs in the Drape pane, not the scene; the pane \
+               switches it off, and while it is out of sight nothing is felt";
+    if live.is_cloth && button(ui, "Cloth felt", tip, None) {
+        commands.push(ShowCommand::Reveal(Pane::Drape).into());
     }
 }
 

@@ -145,6 +145,7 @@ fn bridge_window(ports: PortsView) -> Harness<'static, Commands> {
         let view = BridgePane {
             live: &EngineView::default(),
             target: None,
+            second: None,
             array: ArrayView {
                 profile: &profile,
                 places_mm: profile.places_mm(),

@@ -22,6 +22,10 @@ pub(crate) enum DeviceCommand {
     ConnectPort(PathBuf),
     /// Let go of it.
     Disconnect,
+    /// Connect the scene's second display to the device at this path, or to an emulator.
+    ConnectSecond(Option<PathBuf>),
+    /// Let go of that.
+    DisconnectSecond,
     /// Clear its faults, whose cause is gone.
     ClearFaults,
     /// Put the path of the session log where it can be pasted.

@@ -7,7 +7,7 @@ use selvedge_foundation::progress::Progress;
 use selvedge_render::RenderScene;
 use selvedge_render::scene::{ExplorationPath, Pose};
 use selvedge_studies::{
-    Bench, Effort, Findings, ReportError, Row, Running, ThisSceneStudy, pareto,
+    Bench, Effort, Findings, Front, ReportError, Row, Running, ThisSceneStudy, pareto,
 };
 
 /// What random numbers would begin with; there are none.
@@ -46,7 +46,10 @@ impl Measured {
     fn of(findings: Findings, n_edits: u64) -> Self {
         let front = pareto(&findings.rows);
         Self {
-            front: front.iter().map(|front| *front == Some(true)).collect(),
+            front: front
+                .iter()
+                .map(|front| *front == Some(Front::On))
+                .collect(),
             rows: findings.rows,
             note: findings.notes.join(" "),
             n_edits,

@@ -139,8 +139,9 @@ impl Accuracy {
         let is_settled = snapshot.counters.commands_obeyed == n_sent
             && snapshot.scene_serial == bench.engine_scene.serial
             && snapshot.rendering.tuning == scene.tuning
-            // A stylus is no rendering of the array.
-            && snapshot.stylus.is_none();
+            // Neither a stylus nor a cloth that hangs is a rendering of the array on the scene.
+            && snapshot.stylus.is_none()
+            && !snapshot.is_cloth;
         if !is_settled {
             self.tally.changed += 1;
             return;

@@ -35,11 +35,14 @@ use crate::bench::export::Exported;
 use crate::bench::pane::Pane;
 use crate::bench::settings::own_certificates;
 use crate::bench::tool::{PaneContext, Tool};
+use crate::bench::view::BridgeView;
 use crate::kit::pane::{framed, scrolled};
 use crate::kit::theme::STEP;
 use crate::kit::widgets::fold;
+use crate::kit::widgets::text::{paragraph, quiet};
 use crate::tools::bridge::actuators::ActuatorPeek;
 use crate::tools::bridge::certificate::CertificateMark;
+use crate::tools::bridge::port::Whose;
 use crate::tools::bridge::ports::Ports;
 use crate::tools::bridge::view::{ArrayView, BridgePane};
 use selvedge_device::{BridgeState, FaultWords, LARGEST_CHANNELS, Target};
@@ -52,6 +55,8 @@ pub(crate) struct Bridge {
     ports: Ports,
     /// What is typed as a port.
     port: String,
+    /// The same for the second display's device.
+    second_port: String,
     /// What is typed as the name of a copy of the array profile.
     copy_name: String,
     /// What is to go wrong with the emulator when it is started next.
@@ -96,6 +101,8 @@ impl Tool for Bridge {
             let view = BridgePane {
                 live: &bench.live,
                 target: bench.device.target.as_deref(),
+                second: (bench.document.scene().displays.len() > 1)
+                    .then_some(bench.device.second.as_deref()),
                 array: ArrayView {
                     places_mm: if is_drivable {
                         profile.places_mm()
@@ -175,9 +182,13 @@ impl Bridge {
             return;
         }
         ui.add_space(STEP);
-        port::show_port(ui, &mut self.port, &mut self.ports, commands);
-        port::show_connecting(ui, bridge.is_some(), &self.port, commands);
+        let first = Whose::First;
+        port::show_port(ui, (first, &mut self.port), &mut self.ports, commands);
+        port::show_connecting(ui, (first, &self.port), bridge.is_some(), commands);
         ui.add_space(STEP);
+        if let Some(target) = view.second {
+            self.show_second(ui, view.live.second_bridge.as_ref(), target, commands);
+        }
         fold(ui, ("Array", false), &array::summary(view), |ui| {
             array::show(ui, view, &mut self.copy_name, commands);
             show_contactors(ui, view, commands);
@@ -212,6 +223,30 @@ impl Bridge {
         if view.has_actuator_model {
             felt::show(ui, &mut self.actuators);
         }
+    }
+}
+
+impl Bridge {
+    /// The device of the second display: how it is, and where it is.
+    fn show_second(
+        &mut self,
+        ui: &mut Ui,
+        bridge: Option<&BridgeView>,
+        target: Option<&str>,
+        commands: &mut Commands,
+    ) {
+        let (whose, summary) = (Whose::Second, port::second_summary(bridge));
+        fold(ui, ("Second display", true), &summary, |ui| {
+            link::show_state(ui, bridge, target);
+            port::show_port(
+                ui,
+                (whose, &mut self.second_port),
+                &mut self.ports,
+                commands,
+            );
+            port::show_connecting(ui, (whose, &self.second_port), bridge.is_some(), commands);
+            paragraph(ui, quiet("It is armed, stopped and limited with the first"));
+        });
     }
 }
 

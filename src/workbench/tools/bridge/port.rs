@@ -10,6 +10,7 @@ use eframe::egui::{
 
 use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
+use crate::bench::view::BridgeView;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::text::{button, choice, named, paragraph};
@@ -19,35 +20,80 @@ use selvedge_device::FoundPort;
 /// How wide the menu of ports is, points.
 const MENU: f32 = 288.0;
 
+/// Whose device is connected.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Whose {
+    /// The first display's.
+    First,
+    /// The second's.
+    Second,
+}
+
+impl Whose {
+    fn connect(self, path: PathBuf) -> DeviceCommand {
+        match self {
+            Self::First => DeviceCommand::ConnectPort(path),
+            Self::Second => DeviceCommand::ConnectSecond(Some(path)),
+        }
+    }
+
+    fn emulate(self) -> DeviceCommand {
+        match self {
+            Self::First => DeviceCommand::ConnectEmulator,
+            Self::Second => DeviceCommand::ConnectSecond(None),
+        }
+    }
+
+    fn let_go(self) -> DeviceCommand {
+        match self {
+            Self::First => DeviceCommand::Disconnect,
+            Self::Second => DeviceCommand::DisconnectSecond,
+        }
+    }
+
+    /// What the field of its port is called.
+    fn port(self) -> &'static str {
+        match self {
+            Self::First => "Port",
+            Self::Second => "Port of the second display",
+        }
+    }
+}
+
 /// The port: typed, or chosen from those that were found.
 pub(crate) fn show_port(
     ui: &mut Ui,
-    port: &mut String,
+    (whose, port): (Whose, &mut String),
     ports: &mut Ports,
     commands: &mut Commands,
 ) {
     let size = vec2(ui.available_width(), ROW + 4.0);
     ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
-        show_menu(ui, port, ports, commands);
+        ui.push_id(whose, |ui| show_menu(ui, (whose, port), ports, commands));
         let field = TextEdit::singleline(port)
             .desired_width(ui.available_width())
             .margin(Margin::symmetric(6, 4))
             .font(theme::number())
             .hint_text("port, e.g. /dev/ttyACM0");
         let response = ui.add(field);
-        named(&response, "Port");
+        named(&response, whose.port());
         let is_entered =
             response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         let path = port.trim();
         if is_entered && !path.is_empty() {
-            commands.push(DeviceCommand::ConnectPort(PathBuf::from(path)).into());
+            commands.push(whose.connect(PathBuf::from(path)).into());
         }
     });
 }
 
 /// The menu of the ports that were found; opening it looks again.
-fn show_menu(ui: &mut Ui, port: &mut String, ports: &mut Ports, commands: &mut Commands) {
+fn show_menu(
+    ui: &mut Ui,
+    (whose, port): (Whose, &mut String),
+    ports: &mut Ports,
+    commands: &mut Commands,
+) {
     let opener = ui.add(Button::new("").min_size(vec2(ROW + STEP, ROW)));
     opener.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, "Choose a port"));
     paint_arrow(ui, opener.rect.center());
@@ -64,7 +110,7 @@ fn show_menu(ui: &mut Ui, port: &mut String, ports: &mut Ports, commands: &mut C
             let tip = format!("Connect to {path}: {description}");
             if choice(ui, name, description, &tip) {
                 path.clone_into(port);
-                commands.push(DeviceCommand::ConnectPort(PathBuf::from(path)).into());
+                commands.push(whose.connect(PathBuf::from(path)).into());
                 ui.close();
             }
         }
@@ -102,8 +148,8 @@ fn empty_words(ports: &PortsView) -> Option<String> {
 
 pub(crate) fn show_connecting(
     ui: &mut Ui,
+    (whose, port): (Whose, &str),
     is_connected: bool,
-    port: &str,
     commands: &mut Commands,
 ) {
     ui.columns(2, |columns| {
@@ -113,22 +159,28 @@ pub(crate) fn show_connecting(
                 .is_empty()
                 .then_some("Type or choose the path of a port first");
             if button(ui, "Connect", "Connect to this port", missing) {
-                commands.push(DeviceCommand::ConnectPort(PathBuf::from(path)).into());
+                commands.push(whose.connect(PathBuf::from(path)).into());
             }
         });
         columns[1].vertical_centered_justified(|ui| {
             if is_connected {
                 if button(ui, "Disconnect", "Stop the device and let go of it", None) {
-                    commands.push(DeviceCommand::Disconnect.into());
+                    commands.push(whose.let_go().into());
                 }
                 return;
             }
             let tip = "Connect to the emulator in this program";
             if button(ui, "Emulator", tip, None) {
-                commands.push(DeviceCommand::ConnectEmulator.into());
+                commands.push(whose.emulate().into());
             }
         });
     });
+}
+
+/// How it stands with the second display's device, beside the name of its fold.
+pub(crate) fn second_summary(bridge: Option<&BridgeView>) -> String {
+    let words = bridge.map_or("not connected", |bridge| bridge.state);
+    words.to_owned()
 }
 
 /// How the sentence begins, here and as a notice.

@@ -30,6 +30,8 @@ pub(crate) struct Stage {
     pub(crate) bridge: Bridge,
     pub(crate) sources: SourcesView,
     pub(crate) faults: Option<FaultWords>,
+    /// Whether the scene has a second display, and what that is connected to.
+    second: Option<Option<&'static str>>,
 }
 
 impl Stage {
@@ -67,6 +69,7 @@ impl Stage {
             bridge: Bridge::default(),
             sources: SourcesView::default(),
             faults: Some(FaultWords::default()),
+            second: None,
         }
     }
 
@@ -74,6 +77,7 @@ impl Stage {
         let view = BridgePane {
             live: &self.live,
             target: Some("Emulator"),
+            second: self.second,
             array: ArrayView {
                 profile: &self.profile,
                 places_mm: self.profile.places_mm(),
@@ -127,6 +131,29 @@ fn array(wish: &Command) -> Option<&ArrayCommand> {
         Command::Device(DeviceCommand::Array(command)) => Some(command),
         _ => None,
     }
+}
+
+#[test]
+fn a_second_display_has_a_device_of_its_own() {
+    let harness = window(Stage::new(BridgePhase::Ready));
+    assert!(harness.query_by_label_contains("Second display").is_none());
+    let stage = Stage {
+        second: Some(None),
+        ..Stage::new(BridgePhase::Ready)
+    };
+    let mut harness = window(stage);
+    let emulated = click(&mut harness, Role::Button, "Emulator");
+    assert_eq!(emulated, [DeviceCommand::ConnectSecond(None).into()]);
+    let field = harness.get_by_role_and_label(Role::TextInput, "Port of the second display");
+    field.focus();
+    harness.run();
+    harness.event(eframe::egui::Event::Text("/dev/ttyACM1".to_owned()));
+    harness.run();
+    harness.state_mut().clear();
+    harness.key_press(Key::Enter);
+    harness.run();
+    let expected = DeviceCommand::ConnectSecond(Some("/dev/ttyACM1".into()));
+    assert_eq!(*harness.state(), [expected.into()]);
 }
 
 #[test]

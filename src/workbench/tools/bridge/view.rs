@@ -13,6 +13,8 @@ pub(crate) struct BridgePane<'a> {
     pub live: &'a EngineView,
     /// What the link was opened to.
     pub target: Option<&'a str>,
+    /// The same of the second display's, where the scene has one.
+    pub(crate) second: Option<Option<&'a str>>,
     /// The array.
     pub array: ArrayView<'a>,
     /// What moves the display, and who hears of it.

@@ -13,6 +13,7 @@ use crate::kit::widgets::slider::{slider_row, tell};
 use crate::kit::widgets::text::{button, quiet_pairs, row, toggle, toggles};
 use crate::tools::drape::grasp::OPENINGS_MM;
 use crate::tools::drape::hung::{Base, ClothChoice, ClothFacts, OtherTextile, Second};
+use crate::tools::drape::through::ThroughDevice;
 use crate::tools::drape::{Draping, MAX_CLOTHS};
 use selvedge_foundation::quantity::fixed;
 
@@ -124,7 +125,34 @@ pub(crate) fn show(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext
     ui.add_space(STEP);
     show_hand(ui, draping);
     ui.add_space(STEP);
+    show_through(ui, draping, context);
+    ui.add_space(STEP);
     show_look(ui, draping);
+}
+
+/// Whether the device feels the cloth in place of the scene.
+fn show_through(ui: &mut Ui, draping: &mut Draping, context: &PaneContext<'_>) {
+    let bench = &*context.bench;
+    let refusal = ThroughDevice::refusal(bench);
+    row(ui, "Through the device", |ui| {
+        let on = "The displays feel what the fingers touch of the chosen cloth; limits and stops \
+                  are those of the device";
+        let kinds = [
+            (false, "off", "The scene is felt"),
+            (true, "on", refusal.unwrap_or(on)),
+        ];
+        ui.add_enabled_ui(refusal.is_none(), |ui| {
+            toggles(ui, &mut draping.through.is_on, &kinds);
+        });
+    });
+    if let Some(why) = refusal {
+        note(ui, why, Tone::Quiet);
+    }
+    if draping.through.is_on {
+        for words in ThroughDevice::notes(bench) {
+            note(ui, &words, Tone::Quiet);
+        }
+    }
 }
 
 fn show_cloths(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext<'_>) {

@@ -19,6 +19,7 @@ mod paint;
 mod stepper;
 #[cfg(test)]
 mod tests;
+mod through;
 mod touch;
 mod view;
 
@@ -40,6 +41,7 @@ use crate::tools::drape::hand::Hands;
 use crate::tools::drape::hung::{Base, ClothChoice, OtherTextile, Second, Wanted};
 use crate::tools::drape::look::Look;
 use crate::tools::drape::motion::Motion;
+use crate::tools::drape::through::ThroughDevice;
 
 /// Most cloths side by side.
 pub(crate) const MAX_CLOTHS: usize = 5;
@@ -99,6 +101,7 @@ pub(crate) struct Draping {
     pub(crate) look: Look,
     pub(crate) hands: Hands,
     pub(crate) motion: Motion,
+    pub(crate) through: ThroughDevice,
     history: History<Chosen, &'static str>,
     /// What was asked for last.
     wanted: Arc<Wanted>,
@@ -150,6 +153,18 @@ impl Draping {
             .lead(&self.motion, self.chosen.second, &bench.ctx);
         self.motion.follow(bench, &self.wanted, lead);
         self.take_answers();
+    }
+
+    /// Lets the engine feel the chosen cloth, if that is switched on.
+    fn feel(&mut self, bench: &mut Bench) {
+        let at = self.look.cloth;
+        let frame = self.motion.frame_at(None);
+        let frame = frame.filter(|_| self.look.looked_at_s.is_none());
+        let cloth = frame.and_then(|frame| Some((frame.t_s, frame.cloths.get(at)?)));
+        let facts = self.motion.facts.cloths.get(at);
+        let title = facts.map_or("", |facts| facts.title.as_str());
+        let cloth = cloth.map(|(t_s, cloth)| (t_s, title, cloth));
+        self.through.follow(cloth, bench);
     }
 
     /// Takes what has come of the motion.
@@ -206,10 +221,11 @@ impl Tool for Draping {
         &[Pane::Drape]
     }
 
-    fn logic(&mut self, _bench: &mut Bench) {
+    fn logic(&mut self, bench: &mut Bench) {
         if self.motion.is_under_way() {
             self.take_answers();
         }
+        self.feel(bench);
     }
 
     fn ui(&mut self, _pane: Pane, ui: &mut Ui, context: &mut PaneContext<'_>) {

@@ -5,6 +5,7 @@ use std::path::Path;
 use eframe::egui::{Event, Id, Key, Modifiers, PointerButton, Pos2, Rect};
 
 use super::*;
+use crate::bench::command::PlayCommand;
 use crate::bench::export::Exportable;
 use crate::shell::headless::Headless;
 use crate::tools::drape::hung::ClothFrame;
@@ -360,4 +361,51 @@ fn a_textile_of_the_library_hangs_in_its_own_laws_beside_others() {
     let header = csv.lines().find(|line| !line.starts_with('#')).unwrap();
     assert!(header.starts_with("cloth,t_s,finger"), "{header}");
     assert!(Path::new(&exported.origin.pairs()[1].1).ends_with("denim.drape.toml"));
+}
+
+/// The loudest contactor of the first display as the engine plays it, µm.
+fn played_um(desk: &mut Headless) -> f32 {
+    let snapshot = desk.workbench.bench.engine.snapshot();
+    let contactors = snapshot.displays[0].contactors.iter();
+    let both = contactors.flat_map(|contactor| contactor.amplitude_um);
+    both.fold(0.0, f32::max)
+}
+
+#[test]
+fn the_device_feels_the_cloth_that_slips_and_the_scene_when_it_is_switched_off() {
+    let (mut desk, at) = pinched();
+    tool(&mut desk).through.is_on = true;
+    desk.pass(4);
+    assert!(desk.workbench.bench.engine.snapshot().is_cloth);
+    assert_eq!(played_um(&mut desk), 0.0, "held still it is silent");
+    let mut most = 0.0_f32;
+    for step in 1..24_u8 {
+        let by = eframe::egui::vec2(3.0 * f32::from(step), 0.0);
+        desk.events.push(Event::PointerMoved(at + by));
+        desk.pass(1);
+        most = most.max(played_um(&mut desk));
+    }
+    assert!(most > 0.0, "what slips is played");
+    let words = desk.workbench.bench.device.cloth.clone();
+    assert!(words.is_some_and(|words| words.starts_with("a hanging cloth: ")));
+    // Out of sight nothing is stepped, and nothing is felt.
+    desk.dispatch(ShowCommand::Reveal(Pane::Workspace));
+    desk.pass(12);
+    assert_eq!(played_um(&mut desk), 0.0);
+    tool(&mut desk).through.is_on = false;
+    desk.pass(4);
+    assert!(!desk.workbench.bench.engine.snapshot().is_cloth);
+    assert_eq!(desk.workbench.bench.device.cloth, None);
+}
+
+#[test]
+fn a_recording_is_felt_on_the_scene() {
+    let (mut desk, _) = pinched();
+    tool(&mut desk).through.is_on = true;
+    desk.pass(4);
+    desk.dispatch(PlayCommand::ToggleRecording);
+    desk.pass(4);
+    assert!(desk.workbench.bench.live.play.is_recording);
+    assert!(!tool(&mut desk).through.is_on);
+    assert!(!desk.workbench.bench.engine.snapshot().is_cloth);
 }

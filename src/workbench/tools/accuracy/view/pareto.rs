@@ -128,7 +128,7 @@ fn words_of(row: &Row) -> String {
     let error = row.error.map_or_else(|| "–".to_owned(), numbers::level);
     let p99 = row.error_p99.map_or_else(|| "–".to_owned(), numbers::level);
     let cost = row.cost.map_or_else(String::new, |cost| {
-        let [low, high] = cost.cpu_quartiles_s.map(quantity::time_span);
+        let [low, high] = cost.cpu_interval_s.map(quantity::time_span);
         let median = quantity::time_span(cost.cpu_s);
         format!("\n{median} of CPU time a tick ({low} … {high})")
     });
