@@ -182,7 +182,7 @@ impl ReliefArgs {
         }
     }
 
-    /// Finds the heights of a picture with a lattice; why there are none where nobody asked for them.
+    /// Finds the heights of a picture with a lattice; why there are none where nobody asked.
     pub(super) fn felt(
         &self,
         (luminance, found): (&Grid<f64>, &Found),

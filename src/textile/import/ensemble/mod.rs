@@ -2,8 +2,8 @@
 //! they do, and what is felt of each.
 //!
 //! Two models compete, shading and dark is deep, and where the light is not known, lights. They are
-//! drawn by a fixed rule, so that the same picture gives the same bytes on any number of threads. Of
-//! a member only its levels are kept, not its relief: what is in memory at once is one relief a
+//! drawn by a fixed rule, so that the same picture gives the same bytes on any number of threads.
+//! Of a member only its levels are kept, not its relief: what is in memory at once is one relief a
 //! thread.
 
 mod design;
@@ -34,7 +34,7 @@ const TRUST: f64 = 0.75;
 const NOISE_SHARE: f64 = 0.02;
 /// How many independent readings a picture's residual counts for: it falls with smoothness too.
 const N_READINGS: f64 = 1.0;
-/// Rounds that bring the kept relief's levels to the medians, and the most that they may change, dB.
+/// Rounds that bring the kept relief's levels to the medians, and how much one may change, dB.
 const N_ROUNDS: usize = 3;
 const MOST_DB: f64 = 12.0;
 
@@ -58,8 +58,8 @@ impl Ensemble {
     /// Tries all members on a brightness, heights scaled as the textile's are to be.
     ///
     /// # Errors
-    /// Heights without a scale, a picture without relief: the first member's error, if none could be
-    /// scaled. Cancelled.
+    /// Heights without a scale, a picture without relief: the first member's error, if none could
+    /// be scaled. Cancelled.
     pub fn of(
         brightness: &Brightness,
         about: &PictureTextile,
@@ -147,8 +147,8 @@ impl Ensemble {
             estimate.light = relief.light;
             let percent = 100.0 * self.belief_in_shading();
             estimate.words = format!(
-                "The light is not known: of {} reliefs, {percent:.0} % of the belief in shading, this \
-                 one is nearest to what all feel like.",
+                "The light is not known: of {} reliefs, {percent:.0} % of the belief in shading, \
+                 this one is nearest to what all feel like.",
                 self.members.len()
             );
         }

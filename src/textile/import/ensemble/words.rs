@@ -26,8 +26,8 @@ impl Ensemble {
         let percent = 100.0 * p;
         let why = if between > within {
             format!(
-                "shading and dark-is-deep both explain this picture ({percent:.0} % to {:.0} %) and \
-                 differ by {:.0} dB",
+                "shading and dark-is-deep both explain this picture ({percent:.0} % to {:.0} %) \
+                 and differ by {:.0} dB",
                 100.0 - percent,
                 (shade - deep).abs()
             )
@@ -46,8 +46,8 @@ impl Ensemble {
             _ => "the SMD (--smd-um), ",
         };
         Some(format!(
-            "A{hz} along the {way} may lie {low:+.1} to {high:+.1} dB from what is felt: {why}; give \
-             {lamp}{smd}a stroke of the tester, or a picture with the lamp on another side"
+            "A{hz} along the {way} may lie {low:+.1} to {high:+.1} dB from what is felt: {why}; \
+             give {lamp}{smd}a stroke of the tester, or a picture with the lamp on another side"
         ))
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! Shading shows the slope towards the light: the power of a wave is that of the relief by
 //! `cos²(angle to the light)`; dark is deep shows all directions alike. The logarithm of the finest
-//! waves' power over direction is fitted by `b·cos 2(angle − tilt)`, and b compared with what either
-//! model leads to expect. What a weave has of directions of its own is in the way of both, which is
+//! waves' power over direction is fitted by `b·cos 2(angle − tilt)`, and b compared with what
+//! either model leads to expect. What a weave has of directions of its own is in the way of both, which is
 //! why b is known to no more than [`SPREAD`].
 
 use std::f64::consts::PI;
@@ -17,8 +17,8 @@ const N_SECTORS: usize = 24;
 /// slopes are sampled badly and noise rules; below, a weave's own directions do.
 const N_RINGS: usize = 2;
 const HIGHEST_PER_PX: f64 = 0.25;
-/// b under shading by contrast (deviation over mean): steep slopes are dark whichever way they face,
-/// self-shadow above all, so that the light's side fades. Within these ends.
+/// b under shading by contrast (deviation over mean): steep slopes are dark whichever way they
+/// face, self-shadow above all, so that the light's side fades. Within these ends.
 const B_BY_CONTRAST: f64 = 0.09;
 const B_ENDS: [f64; 2] = [0.2, 1.0];
 /// How far b lies from that, or from 0 where dark is deep: a standard deviation over the known

@@ -192,7 +192,8 @@ pub(crate) fn show(
             format!(", known to {low} and {high} dB")
         });
         let words = format!(
-            "{}: 40 Hz {low}, 320 Hz {high}{known} · drag it to turn its gain, with Ctrl both bands",
+            "{}: 40 Hz {low}, 320 Hz {high}{known} · drag it to turn its gain, with Ctrl both \
+             bands",
             one.name
         );
         tell(&shown.response, words);
