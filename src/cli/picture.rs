@@ -132,7 +132,8 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
         let analysis = Analysis::of(&chosen, &options, progress)?;
         let of = (&origin, px_per_mm);
         let felt = analysis.found.as_ref().ok();
-        let felt = felt.map(|found| args.relief.felt(&found.tile, of, n_threads, progress));
+        let ground = &analysis.luminance;
+        let felt = felt.map(|found| args.relief.felt((ground, found), of, n_threads, progress));
         let felt = felt.transpose()?;
         Ok((analysis, felt))
     };

@@ -9,12 +9,16 @@ use super::textile_words::construction;
 use super::usage::one_of;
 use super::{CliError, terminal};
 use selvedge_foundation::files::sha256_hex;
+use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_foundation::quantity::{fixed, with_unit};
+use selvedge_textile::picture::brightness::Brightness;
 use selvedge_textile::picture::shading::{Light, Method, ShadingError, ShadingOptions};
-use selvedge_textile::picture::{Relief, Tile};
+use selvedge_textile::picture::{Found, Relief};
 use selvedge_textile::surface::Representation;
-use selvedge_textile::{BuiltFile, Construction, Description, HeightScale, PictureTextile};
+use selvedge_textile::{
+    BuiltFile, Construction, Description, Ensemble, HeightScale, Lamp, PictureTextile,
+};
 
 /// How heights are found on the cell, and what becomes of them.
 #[derive(Debug, Args)]
@@ -23,7 +27,15 @@ pub(super) struct ReliefArgs {
     /// +x (to the right) towards the light, y up; estimated if not said
     #[arg(long, value_name = "SLANT,TILT", value_parser = light_from, allow_hyphen_values = true)]
     light: Option<Light>,
-    /// How heights are found from brightness (variational)
+    /// Within how many degrees that is right (5)
+    #[arg(long, value_name = "DEG", value_parser = positive, requires = "light")]
+    light_within: Option<f64>,
+    /// What heights are found on: the picture as it is, or the mean cell, which leaves out what
+    /// varies from yarn to yarn
+    #[arg(long, value_name = "WHAT", value_parser = one_of(GROUNDS), default_value = "picture")]
+    relief_of: Ground,
+    /// How heights are found from brightness; if not said, by what the picture speaks for.
+    /// tsai-shah and linear are the historical reference
     #[arg(long, value_name = "METHOD", value_parser = one_of(SHADINGS))]
     shading: Option<Method>,
     /// Iterations at most, 1 to 10000 (the method's own number)
@@ -49,11 +61,21 @@ pub(super) struct ReliefArgs {
     areal: bool,
 }
 
-const SHADINGS: [(&str, Method); 3] = [
-    ("tsai-shah", Method::TsaiShah),
-    ("linear", Method::Linear),
+const SHADINGS: [(&str, Method); 4] = [
     ("variational", Method::Variational),
+    ("dark-is-deep", Method::DarkIsDeep),
+    ("linear", Method::Linear),
+    ("tsai-shah", Method::TsaiShah),
 ];
+
+/// What heights are found on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Ground {
+    Picture,
+    Cell,
+}
+
+const GROUNDS: [(&str, Ground); 2] = [("picture", Ground::Picture), ("cell", Ground::Cell)];
 
 fn light_from(text: &str) -> Result<Light, String> {
     let wrong = || "give two numbers in degrees, such as 45,30".to_owned();
@@ -71,6 +93,8 @@ pub(super) struct Felt {
     pub(super) relief: Relief,
     pub(super) relief_um: Option<f64>,
     files: Option<Vec<BuiltFile>>,
+    /// What to do about a wide band.
+    advice: Option<String>,
 }
 
 /// The picture as its textile names it.
@@ -158,16 +182,20 @@ impl ReliefArgs {
         }
     }
 
-    /// Finds the heights of a tile; why there are none where nobody asked for them.
+    /// Finds the heights of a picture with a lattice; why there are none where nobody asked.
     pub(super) fn felt(
         &self,
-        tile: &Tile,
+        (luminance, found): (&Grid<f64>, &Found),
         (origin, px_per_mm): (&Origin<'_>, Option<f64>),
         n_threads: usize,
         progress: &mut Progress<'_>,
     ) -> Result<Result<Felt, String>, CliError> {
-        let how = (&self.options(), n_threads);
-        let relief = match Relief::of(tile, px_per_mm, self.light, how, progress) {
+        let tile = &found.tile;
+        let brightness = match self.relief_of {
+            Ground::Cell => Brightness::of(tile, px_per_mm.unwrap_or(1.0), n_threads),
+            Ground::Picture => Brightness::of_picture(luminance, found.turn_rad()),
+        };
+        let mut relief = match Relief::of(brightness, self.light, &self.options(), progress) {
             Ok(relief) => relief,
             Err(ShadingError::Cancelled(_)) => return Err(Cancelled.into()),
             Err(error) if self.is_asked() => {
@@ -178,6 +206,10 @@ impl ReliefArgs {
         };
         let mut about = self.about(origin, px_per_mm);
         about.size_px = Some(relief.brightness.size_px);
+        let advice = match &self.textile {
+            Some(_) => self.believe(&mut relief, &mut about, n_threads, progress)?,
+            None => None,
+        };
         let relief_um = match (about.scale, px_per_mm) {
             (HeightScale::Unscaled, _) => None,
             (HeightScale::ReliefUm(um), None) => Some(um),
@@ -190,7 +222,29 @@ impl ReliefArgs {
             relief,
             relief_um,
             files: files.transpose()?,
+            advice,
         }))
+    }
+
+    /// Tries many reliefs for a textile: it keeps the one that is nearest to what all feel like,
+    /// unless a method was named, and how far that may be off. What to do if that is far.
+    fn believe(
+        &self,
+        relief: &mut Relief,
+        about: &mut PictureTextile,
+        n_threads: usize,
+        progress: &mut Progress<'_>,
+    ) -> Result<Option<String>, CliError> {
+        let lamp = self.light.map_or(Lamp::Unknown, |light| Lamp::Known {
+            light,
+            within_deg: self.light_within.unwrap_or(Lamp::WITHIN_DEG),
+        });
+        let ensemble = Ensemble::of(&relief.brightness, about, lamp, n_threads, progress)?;
+        if self.shading.is_none() {
+            ensemble.keep(relief, about, progress)?;
+        }
+        about.levels = ensemble.levels_about(&relief.shape, about)?;
+        Ok(ensemble.advice(&about.levels, about.scale))
     }
 
     /// Writes the textile, if one is wanted, and tells in lines what was found.
@@ -211,6 +265,10 @@ impl ReliefArgs {
         if let (Some(folder), Some(files)) = (&self.textile, &felt.files) {
             selvedge_textile::write(files, folder)?;
             let line = format!("{}: the textile\n", folder.display());
+            described.push_str(&line);
+        }
+        if let Some(advice) = &felt.advice {
+            let line = format!("{out}: {advice}\n");
             described.push_str(&line);
         }
         Ok(described)

@@ -10,7 +10,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::method::MethodArgs;
-use super::render_out::{AmplitudeTable, Clips, WavKind};
+use super::render_out::{AmplitudeTable, BandTables, Clips, WavKind};
 use super::terminal::{self, Meter};
 use super::{CliError, output, signals};
 
@@ -18,7 +18,7 @@ use selvedge_engine::ClipKind;
 use selvedge_foundation::files::{read_text, to_json_string};
 use selvedge_foundation::progress::Cancelled;
 use selvedge_render::array::Method;
-use selvedge_render::scene::{ExplorationPath, LoadedScene};
+use selvedge_render::scene::{ExplorationPath, LoadedScene, Pose};
 use selvedge_render::{RenderScene, Replay, RunStats, replay};
 
 const PATH_HELP: &str = "Exploration: a CSV of t_s,x_mm,y_mm, optionally angle_deg and \
@@ -34,6 +34,15 @@ pub(super) struct RenderArgs {
     /// Amplitudes after gains, one row a contactor a tick (standard output if no file is asked for)
     #[arg(long, value_name = "A.csv")]
     out: Option<PathBuf>,
+    /// Amplitudes at both ends of what textiles are known to (their `[uncertainty]`): textiles of
+    /// pictures; others are written as they are
+    #[arg(
+        long,
+        value_name = "LOW.csv,HIGH.csv",
+        value_delimiter = ',',
+        num_args = 1
+    )]
+    band: Vec<PathBuf>,
     #[command(flatten)]
     how: MethodArgs,
     /// The drive waveform, one channel a contactor; full scale is 50 µm
@@ -116,7 +125,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
         &scene,
         (args.how.method, args),
         &path,
-        &mut |tick, pose, frames| sinks.take(tick, pose.t_s, frames, &stop),
+        &mut |tick, pose, frames| sinks.take(tick, pose, frames, &stop),
     )?;
     sinks.finish(&stop)?;
     if let Some(place) = &args.stats {
@@ -130,11 +139,7 @@ fn run_method(
     scene: &RenderScene,
     (method, args): (Method, &RenderArgs),
     path: &ExplorationPath,
-    sink: &mut dyn FnMut(
-        u64,
-        &selvedge_render::scene::Pose,
-        &[selvedge_render::array::DisplayFrame],
-    ) -> Step,
+    sink: &mut dyn FnMut(u64, &Pose, &[selvedge_render::array::DisplayFrame]) -> Step,
 ) -> Result<RunStats, CliError> {
     let what = Replay {
         scene,
@@ -194,6 +199,7 @@ fn write_stats(
 /// The files of a run.
 struct Sinks<'a> {
     table: Option<AmplitudeTable<'a>>,
+    band: Option<BandTables<'a>>,
     clips: Clips,
 }
 
@@ -204,32 +210,46 @@ impl<'a> Sinks<'a> {
         scene: &RenderScene,
     ) -> Result<Self, CliError> {
         let clips = args.clips();
-        let is_asked = args.out.is_some() || (clips.is_empty() && args.stats.is_none());
+        let is_other = !clips.is_empty() || args.stats.is_some() || !args.band.is_empty();
+        let is_asked = args.out.is_some() || !is_other;
         let table = is_asked
             .then(|| AmplitudeTable::new(args.out.as_deref(), loaded))
             .transpose()?;
+        let band = match &args.band[..] {
+            [] => None,
+            [low, high] => Some(BandTables::new([low, high], loaded, scene)?),
+            _ => {
+                let line =
+                    "--band takes two files; give the lower end and the upper: LOW.csv,HIGH.csv";
+                return Err(CliError::Input(line.to_owned()));
+            }
+        };
         let displays = scene.displays.iter();
         let n_contactors = displays.map(|display| display.offsets.len()).sum();
         let clips = Clips::create(&clips, n_contactors, &loaded.scene().name)?;
-        Ok(Self { table, clips })
+        Ok(Self { table, band, clips })
     }
 
     fn take(
         &mut self,
         tick: u64,
-        t_s: f64,
+        pose: &Pose,
         frames: &[selvedge_render::array::DisplayFrame],
         stop: &AtomicBool,
     ) -> Result<(), CliError> {
         check(stop)?;
         if let Some(table) = &mut self.table {
-            table.take(tick, t_s, frames)?;
+            table.take(tick, pose.t_s, frames)?;
+        }
+        if let Some(band) = &mut self.band {
+            band.take(tick, pose, frames)?;
         }
         self.clips.take(tick, frames)
     }
 
     fn finish(self, stop: &Arc<AtomicBool>) -> Result<(), CliError> {
         self.table.map_or(Ok(()), AmplitudeTable::finish)?;
+        self.band.map_or(Ok(()), BandTables::finish)?;
         self.clips.finish(stop)
     }
 }

@@ -12,8 +12,11 @@ use super::terminal::with_meter_until;
 use super::{CliError, terminal};
 use selvedge_device::ArrayProfile;
 use selvedge_engine::{ClipKind, ClipWriter, side_by_side};
-use selvedge_render::array::DisplayFrame;
-use selvedge_render::scene::LoadedScene;
+use selvedge_foundation::quantity::factor_of_gain;
+use selvedge_render::RenderScene;
+use selvedge_render::array::{ContactInspector, ContactorReading, DisplayFrame, Reading};
+use selvedge_render::scene::{LoadedScene, Pose};
+use selvedge_textile::tactile::Band;
 
 /// Columns of amplitudes: what a contactor is given at a tick, and where it is.
 pub(super) const AMPLITUDE_COLUMNS: [&str; 9] = [
@@ -51,6 +54,17 @@ impl<'a> AmplitudeTable<'a> {
         t_s: f64,
         frames: &[DisplayFrame],
     ) -> Result<(), CliError> {
+        self.take_by(tick, t_s, frames, |_, _| [1.0; 2])
+    }
+
+    /// The same with amplitudes by factors of a contactor of a display.
+    fn take_by(
+        &mut self,
+        tick: u64,
+        t_s: f64,
+        frames: &[DisplayFrame],
+        mut factors: impl FnMut(usize, usize) -> [f64; 2],
+    ) -> Result<(), CliError> {
         for (display, frame) in frames.iter().enumerate() {
             for contactor in 0..frame.n_contactors() {
                 let position = frame.contactor_position(contactor);
@@ -63,7 +77,14 @@ impl<'a> AmplitudeTable<'a> {
                     .number(contactor);
                 row.number(position.x_mm).number(position.y_mm);
                 row.text(placed.map_or("", |placed| &placed.id));
-                write_amplitudes(&mut self.out, frame, contactor);
+                match factors(display, contactor) {
+                    [1.0, 1.0] => write_amplitudes(&mut self.out, frame, contactor),
+                    factors => {
+                        for (um, factor) in frame.amplitude_um(contactor).into_iter().zip(factors) {
+                            self.out.rows().number(um * factor);
+                        }
+                    }
+                }
                 self.out.rows().end_row()?;
             }
         }
@@ -74,6 +95,78 @@ impl<'a> AmplitudeTable<'a> {
     pub(super) fn finish(self) -> Result<(), CliError> {
         self.out.finish()
     }
+}
+
+/// Amplitudes at both ends of what textiles are known to: a contactor's are shifted by the band of
+/// the textile that it is on, interpolated at its own direction of movement in the textile's frame.
+/// What has no band is shifted by nothing.
+pub(super) struct BandTables<'a> {
+    ends: [AmplitudeTable<'a>; 2],
+    inspector: ContactInspector,
+    readings: Vec<ContactorReading>,
+}
+
+impl<'a> BandTables<'a> {
+    /// A table for either end.
+    pub(super) fn new(
+        [low, high]: [&Path; 2],
+        loaded: &'a LoadedScene,
+        scene: &RenderScene,
+    ) -> Result<Self, CliError> {
+        Ok(Self {
+            ends: [
+                AmplitudeTable::new(Some(low), loaded)?,
+                AmplitudeTable::new(Some(high), loaded)?,
+            ],
+            inspector: ContactInspector::new(scene),
+            readings: Vec::new(),
+        })
+    }
+
+    /// Writes the rows of a tick.
+    pub(super) fn take(
+        &mut self,
+        tick: u64,
+        pose: &Pose,
+        frames: &[DisplayFrame],
+    ) -> Result<(), CliError> {
+        let mut shifts_db = Vec::with_capacity(frames.len());
+        for display in 0..frames.len() {
+            self.inspector
+                .readings_into(display, pose, &mut self.readings);
+            let loaded = self.ends[0].loaded;
+            let shift = |moving: &ContactorReading| {
+                moving
+                    .reading
+                    .map_or([[0.0; 2]; 2], |reading| shift_db(loaded, &reading))
+            };
+            shifts_db.push(self.readings.iter().map(shift).collect::<Vec<_>>());
+        }
+        for (end, table) in self.ends.iter_mut().enumerate() {
+            table.take_by(tick, pose.t_s, frames, |display, contactor| {
+                let shift = shifts_db[display]
+                    .get(contactor)
+                    .copied()
+                    .unwrap_or_default();
+                [0, 1].map(|band| factor_of_gain(shift[band][end]))
+            })?;
+        }
+        Ok(())
+    }
+
+    /// The tables are whole.
+    pub(super) fn finish(self) -> Result<(), CliError> {
+        self.ends.into_iter().try_for_each(AmplitudeTable::finish)
+    }
+}
+
+/// By band from where to where a contactor's amplitude may lie, dB from what it is given.
+fn shift_db(loaded: &LoadedScene, reading: &Reading) -> [[f64; 2]; 2] {
+    let textile = loaded.textiles().get(reading.textile);
+    let band = textile.and_then(|textile| textile.manifest().uncertainty.as_ref());
+    let [u, w] = reading.velocity_mm_per_s;
+    let direction_deg = w.atan2(u).to_degrees();
+    Band::ALL.map(|of| band.map_or([0.0; 2], |band| band.level_db(of, direction_deg)))
 }
 
 /// The amplitudes of a contactor; what has no more digits than f32 is written with no more.

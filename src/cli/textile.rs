@@ -192,6 +192,9 @@ fn show(library: &Library, id: &str) -> Result<(), CliError> {
         ),
         ("level", format!("{level} dB re 1 µm")),
     ];
+    if let Some(band) = &manifest.uncertainty {
+        rows.extend(band.words().map(|words| ("from a picture", words)));
+    }
     if let Some(friction) = textile.friction()? {
         let [miu, mmd] = [friction.miu(), friction.mmd()].map(|figure| fixed(figure, 4));
         let within = manifest.uncertainty.as_ref().and_then(|u| u.friction_level);

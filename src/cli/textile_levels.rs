@@ -17,7 +17,7 @@ type Measured = (Arc<Textile>, Levels);
 /// A textile whose directions differ by more is strongly anisotropic, dB.
 const STRONG_DB: f64 = 10.0;
 
-const LEVELS_HEADER: [&str; 10] = [
+const LEVELS_HEADER: [&str; 14] = [
     "textile",
     "a40_um",
     "a320_um",
@@ -28,6 +28,10 @@ const LEVELS_HEADER: [&str; 10] = [
     "anisotropy320_db",
     "tuned_a40_um",
     "tuned_a320_um",
+    "low40_db",
+    "high40_db",
+    "low320_db",
+    "high320_db",
 ];
 
 /// Writes the table, and when it goes to a file what the library spans to standard output.
@@ -63,6 +67,17 @@ pub(super) fn levels(library: &Library, out: Option<&Path>) -> Result<(), CliErr
         }
         for band in Band::ALL {
             row.number(tuned_um(textile, levels, (&tuning, reference_db), band));
+        }
+        match &textile.manifest().uncertainty {
+            Some(band) if !band.levels.is_empty() => {
+                let ends = Band::ALL.map(|of| band.mean_level_db(of));
+                ends.into_iter().flatten().for_each(|db| {
+                    row.number(db);
+                });
+            }
+            _ => (0..4).for_each(|_| {
+                row.text("");
+            }),
         }
         row.end_row()?;
     }

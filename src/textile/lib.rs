@@ -40,8 +40,8 @@ pub use catalogue::{write_catalogue, write_figure};
 pub use draft::{Draft, Fault};
 pub use error::{KesAsk, TextileError};
 pub use import::{
-    Description, HeightImport, HeightPlace, HeightScale, ImportOptions, KesFigures, KesImport,
-    Measurement, PictureTextile, ScaledRelief, read_measurement,
+    Description, Ensemble, HeightImport, HeightPlace, HeightScale, ImportOptions, KesFigures,
+    KesImport, Lamp, Measurement, PictureTextile, ScaledRelief, read_measurement,
 };
 pub use kes::{
     ColumnRole, DecimalSign, KesColumn, KesFile, KesFriction, KesKnown, KesLine, KesLook,

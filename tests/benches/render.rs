@@ -13,7 +13,7 @@ use selvedge_foundation::numerics::{Grid, Random, median};
 use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
 use selvedge_render::scene::Pose;
 use selvedge_render::{ContactorArray, PlacedLevel, PlacedSurface, RenderScene};
-use selvedge_textile::surface::{AREAL_WIRE_MM, HeightMap, Probe, Profile, ProfileSet, Surface};
+use selvedge_textile::surface::{HeightMap, Probe, Profile, ProfileSet, Surface};
 
 const ROUNDS: usize = 9;
 const METHODS: [Method; 3] = [Method::Reference, Method::Banded, Method::Table];
@@ -65,10 +65,7 @@ fn areal() {
         .collect();
     println!("a height map of 1197 × 940 points, 0.05 mm apart, to spectra at every mm");
     println!("  importing  {:>9.2} s", median(&mut import_s));
-    let probe = Probe {
-        width_mm: AREAL_WIRE_MM,
-        ..Probe::ideal()
-    };
+    let probe = Probe::contactor();
     let middle_mm = map.size_mm().map(|mm| 0.5 * mm);
     let profiles = map.strokes(&probe, middle_mm, &Random::new(1));
     let economical = profiles.and_then(|profiles| Surface::from_profiles(profiles, 0.0));

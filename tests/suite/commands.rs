@@ -344,6 +344,45 @@ fn a_reader_that_goes_away_is_no_failure() {
     assert_eq!((child.wait().unwrap().code(), said), (Some(0), vec![]));
 }
 
+#[test]
+fn a_band_is_written_at_both_ends_and_shifts_only_what_has_one() {
+    let lab = Lab::with_scene();
+    let manifest = lab.read("textiles/fine/textile.toml");
+    let known = "[uncertainty]\nlevels = [[40.0, 0.0, -6.0, 2.0], [320.0, 0.0, -1.0, 4.0], \
+                 [320.0, 90.0, -9.0, 9.0]]\n";
+    lab.write("textiles/fine/textile.toml", format!("{manifest}{known}"));
+    let files = ["--out", "a.out.csv", "--band", "low.csv,high.csv"];
+    lab.print(&[&RENDER[..], &files].concat());
+    let read = |name: &str| Rows::read(&lab.path(name));
+    let [felt, low, high] = ["a.out.csv", "low.csv", "high.csv"].map(read);
+    let mut n_shifted = 0;
+    for (column, ends_db) in [("a40_um", [-6.0, 2.0]), ("a320_um", [-1.0, 4.0])] {
+        let [felt_um, low_um, high_um] = [&felt, &low, &high].map(|rows| rows.numbers(column));
+        for (row, textile) in felt.text("textile").into_iter().enumerate() {
+            let ratios = [low_um[row], high_um[row]].map(|um| 20.0 * (um / felt_um[row]).log10());
+            if felt_um[row] > 0.0 {
+                assert_eq!(textile, "fine", "the other is flat");
+                let off = [0, 1].map(|end| (ratios[end] - ends_db[end]).abs());
+                assert!(off.into_iter().all(|db| db < 1e-6), "row {row}: {ratios:?}");
+                n_shifted += 1;
+            } else {
+                assert_eq!([low_um[row], high_um[row]], [0.0; 2]);
+            }
+        }
+    }
+    assert!(n_shifted > 100, "{n_shifted}");
+    let table = lab.print(&["textile", "levels", "--library", "textiles"]);
+    let levels = Rows::parse(&table);
+    assert_eq!(levels.text("low40_db"), ["-6", ""], "{table}");
+    assert_eq!(
+        levels.text("high320_db"),
+        ["6.5", ""],
+        "the mean of warp and weft"
+    );
+    let line = lab.refuse(&[&RENDER[..], &["--band", "low.csv"]].concat());
+    assert!(line.contains("LOW.csv,HIGH.csv"), "{line}");
+}
+
 #[cfg(unix)]
 #[test]
 fn an_interrupted_run_leaves_nothing_behind() {

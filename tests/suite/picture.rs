@@ -209,7 +209,7 @@ fn lit_weave() -> Vec<u8> {
     picture.to_png("weave.png".as_ref()).unwrap()
 }
 
-const FELT: [&str; 14] = [
+const FELT: [&str; 18] = [
     "picture",
     "weave.png",
     "--out",
@@ -224,6 +224,10 @@ const FELT: [&str; 14] = [
     "textiles/lit-weave",
     "--name",
     "Lit weave",
+    "--shading",
+    "variational",
+    "--relief-of",
+    "cell",
 ];
 
 #[test]
@@ -276,6 +280,33 @@ fn a_lit_weave_becomes_a_textile_that_is_shown_and_rendered() {
         "a.bin",
     ]);
     assert!(!std::fs::read(lab.path("a.bin")).unwrap().is_empty());
+}
+
+#[test]
+fn a_textile_of_a_picture_keeps_a_band_and_claims_no_measurement() {
+    let lab = Lab::new();
+    lab.write("weave.png", lit_weave());
+    let described = lab.print(&FELT[..14]);
+    let manifest = lab.read("textiles/lit-weave/textile.toml");
+    for part in ["[uncertainty]", "levels = ["] {
+        assert!(manifest.contains(part), "{part}: {manifest}");
+    }
+    assert!(!manifest.contains("[measured]"), "{manifest}");
+    let shown = lab.print(&["textile", "show", "lit-weave", "--library", "textiles"]);
+    assert!(shown.contains("dB along the warp"), "{shown}");
+    let levels = lab.print(&["textile", "levels", "--library", "textiles"]);
+    let levels = crate::program::Rows::parse(&levels);
+    let [low, high] = ["low40_db", "high40_db"].map(|column| levels.numbers(column)[0]);
+    assert!(low < high && high - low < 40.0, "{low} to {high}");
+    // The weave is drawn by light alone.
+    assert!(described.contains("heights by variational"), "{described}");
+    let open = [&FELT[..6], &FELT[8..14]].concat();
+    let open = lab.print(&open);
+    let unknown = lab.read("textiles/lit-weave/textile.toml");
+    assert!(
+        unknown.contains("light_is_estimated = true") && unknown != manifest,
+        "{open}"
+    );
 }
 
 #[test]

@@ -5,6 +5,8 @@ use std::path::{Component, Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use selvedge_textile::Textile;
+
 /// What a session is begun with.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Origin<'a> {
@@ -17,6 +19,8 @@ pub struct Origin<'a> {
     /// SHA-256 of what the session is held with, by name: program, plan, library, scene, profile,
     /// certificate.
     pub sha256: Vec<(&'static str, String)>,
+    /// How far levels of textiles may be off that were not measured, in words by id.
+    pub uncertain: Vec<(String, String)>,
 }
 
 impl<'a> Origin<'a> {
@@ -32,6 +36,17 @@ impl<'a> Origin<'a> {
     #[must_use]
     pub fn piloting(mut self, is_pilot: bool) -> Self {
         self.is_pilot = is_pilot;
+        self
+    }
+
+    /// The same with how far levels of its textiles may be off.
+    #[must_use]
+    pub fn knowing<'t>(mut self, textiles: impl IntoIterator<Item = &'t Textile>) -> Self {
+        let words = |textile: &Textile| {
+            let known = textile.manifest().uncertainty.as_ref()?;
+            Some((textile.id().to_owned(), known.words()?))
+        };
+        self.uncertain = textiles.into_iter().filter_map(words).collect();
         self
     }
 
@@ -51,6 +66,7 @@ impl<'a> From<&'a str> for Origin<'a> {
             design_file: None,
             is_pilot: false,
             sha256: Vec::new(),
+            uncertain: Vec::new(),
         }
     }
 }

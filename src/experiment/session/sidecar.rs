@@ -51,6 +51,9 @@ pub struct Sidecar {
     /// SHA-256 by what was hashed: program, plan, library, scene, profile, certificate.
     #[serde(default)]
     sha256: BTreeMap<String, String>,
+    /// How far levels of textiles may be off that were not measured, in words by id.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty", default)]
+    uncertain: BTreeMap<String, String>,
     columns: BTreeMap<String, String>,
 }
 
@@ -125,6 +128,7 @@ impl Sidecar {
             generator: Random::NAME.to_owned(),
             schedule: schedule(design, procedure),
             sha256: BTreeMap::new(),
+            uncertain: BTreeMap::new(),
             columns: dictionary(design),
         }
     }
@@ -229,6 +233,7 @@ impl Sidecar {
         let file = origin.design_file.filter(|_| own_library(design).is_some());
         self.design_folder = file.and_then(|file| DesignFolder::of(file, log));
         self.is_pilot = origin.is_pilot;
+        self.uncertain = origin.uncertain.iter().cloned().collect();
         let hashes = origin.sha256.iter();
         self.sha256 = hashes
             .map(|(name, sha256)| ((*name).to_owned(), sha256.clone()))

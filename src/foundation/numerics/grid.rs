@@ -35,6 +35,14 @@ impl<T: Copy> Grid<T> {
         }
     }
 
+    /// Rows as columns.
+    #[must_use]
+    pub fn transposed(&self) -> Self {
+        Self::from_fn(self.height(), self.width(), |column, row| {
+            self.row(column)[row]
+        })
+    }
+
     /// The same with the first row as the last.
     #[must_use]
     pub fn turned_over(&self) -> Self {

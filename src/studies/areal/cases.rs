@@ -6,9 +6,7 @@ use std::sync::Arc;
 use crate::{Effort, ReportError, textiles};
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_textile::Library;
-use selvedge_textile::surface::{
-    AREAL_WIRE_MM, Direction, HeightMap, Probe, Surface, SurfaceError,
-};
+use selvedge_textile::surface::{Direction, HeightMap, Probe, Surface, SurfaceError};
 
 /// The random relief's name.
 const RANDOM: &str = "random relief";
@@ -49,11 +47,7 @@ impl Case {
             textiles::relief(name, &Library::shipped()?.manifest(name)?.source)?
         };
         let wrong = |(_, error): (Direction, SurfaceError)| failed(error);
-        let economical = |width_mm: f64| {
-            let wire = Probe {
-                width_mm,
-                ..Probe::ideal()
-            };
+        let economical = |wire: Probe| {
             let middle_mm = map.size_mm().map(|mm| 0.5 * mm);
             let [warp, _, weft, _] = map.strokes(&wire, middle_mm, &Random::new(seed))?;
             Surface::from_profiles([warp, None, weft, None], 0.0).map(Arc::new)
@@ -61,8 +55,8 @@ impl Case {
         Ok(Self {
             name: name.to_owned(),
             economical: [
-                economical(Probe::ideal().width_mm).map_err(wrong)?,
-                economical(AREAL_WIRE_MM).map_err(wrong)?,
+                economical(Probe::ideal()).map_err(wrong)?,
+                economical(Probe::contactor()).map_err(wrong)?,
             ],
             areal: Arc::new(Surface::areal(&map, 0.0).map_err(wrong)?),
         })

@@ -184,7 +184,7 @@ fn of_reliefs(n: usize, bench: &mut Bench<'_>, rows: &mut Vec<Row>) -> Result<()
         bench.step(0.2 * done as f64 / n_reliefs, &relief.name())?;
         let truth = relief.truth(n, bench.seed)?;
         let is_timed = relief == WEAVE || bench.effort == Effort::Full;
-        for method in Method::ALL {
+        for method in Method::OF_SHADING {
             let is_promised =
                 matches!(relief, Relief::PlainWeave { .. }) && method == Method::Variational;
             let row = row((relief, &truth), (method, None), is_timed, bench);
@@ -224,7 +224,7 @@ fn of_sweep(
     rows: &mut Vec<Row>,
 ) -> Vec<Series> {
     let mut curves = Vec::new();
-    for method in Method::ALL {
+    for method in Method::OF_SHADING {
         let mut points = Vec::new();
         for &value in values {
             let (mut light, mut noise) = (LIGHT, 0.0);

@@ -70,13 +70,14 @@ fn refused_with(found: Result<Shape, String>, word: &str) -> Verdict {
 }
 
 fn refused(tile: &Grid<f64>, slant_deg: f64, word: &str) -> Verdict {
-    let all = Method::ALL.map(|method| refused_with(found(tile, [slant_deg, 20.0], method), word));
+    let all =
+        Method::OF_SHADING.map(|method| refused_with(found(tile, [slant_deg, 20.0], method), word));
     let texts: Vec<String> = all.into_iter().collect::<Result<_, _>>()?;
     Ok(texts.into_iter().next().unwrap_or_default())
 }
 
 fn flat(tile: &Grid<f64>) -> Verdict {
-    for method in Method::ALL {
+    for method in Method::OF_SHADING {
         if !found(tile, [45.0, 20.0], method)?.is_flat() {
             return Err(format!("{}: a relief", method.label()));
         }
@@ -88,7 +89,7 @@ fn any_light() -> Verdict {
     let (mut n_found, mut n_refused) = (0, 0);
     for slant in [2.0, 45.0, 85.0] {
         for tilt in [-180.0, -45.0, 0.0, 60.0, 135.0, 270.0] {
-            for method in Method::ALL {
+            for method in Method::OF_SHADING {
                 let Ok(shape) = found(&checks(), [slant, tilt], method) else {
                     n_refused += 1;
                     continue;

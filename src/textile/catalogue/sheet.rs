@@ -3,13 +3,13 @@
 
 use crate::curve::{corners, line, row};
 use crate::surface::{BIN_SPACING_PER_MM, Direction};
-use crate::tactile::{Band, Filters, SpeedResponse};
-use crate::{MeasuredFigure, Source, Textile, TextileError};
+use crate::tactile::{Band, Filters, LEVEL_SPEED_MM_PER_S, Levels, SpeedResponse};
+use crate::{MeasuredFigure, Source, Textile, TextileError, Uncertainty};
 use selvedge_chart::{
     Axis, Chart, ColourBar, Figure, Ink, Raster, Row, Series, Upright, Weight, Words,
 };
 use selvedge_foundation::numerics::{to_byte, to_index};
-use selvedge_foundation::quantity::level_db;
+use selvedge_foundation::quantity::{factor_of_gain, level_db};
 
 /// The side of the textile that is shown, mm.
 const PICTURE_MM: f64 = 20.0;
@@ -119,6 +119,7 @@ fn amplitudes(textile: &Textile) -> Chart {
         let mean = (0..speeds.len()).map(|i| 0.25 * curves.iter().map(|c| c[i]).sum::<f64>());
         let mean: Vec<f64> = mean.collect();
         series.extend(curves.map(|values| line(values, Weight::Thin)));
+        series.extend(whisker(textile, band, ink));
         series.push(Series {
             name: format!("A{}", band.carrier_hz()),
             ..line(mean, Weight::Bold)
@@ -132,6 +133,22 @@ fn amplitudes(textile: &Textile) -> Chart {
         series,
         ..Chart::default()
     }
+}
+
+/// From where to where the mean amplitude at 100 mm/s may lie, where it is not measured.
+fn whisker(textile: &Textile, band: Band, ink: Ink) -> Option<Series> {
+    let known = textile
+        .manifest()
+        .uncertainty
+        .as_ref()
+        .filter(|known| !known.levels.is_empty())?;
+    let mean_um = Levels::of(textile.surface(), &Filters::default()).mean_um[band.index()];
+    // A little apart, so that both are seen where they overlap.
+    let speed = LEVEL_SPEED_MM_PER_S * (1.0 + 0.04 * band.index() as f64);
+    let ends = known
+        .mean_level_db(band)
+        .map(|db| [speed, mean_um * factor_of_gain(db)]);
+    Some(line(ends.to_vec(), ink, Weight::Bold))
 }
 
 /// The profiles that were measured, warp above weft, forward beside reverse.
@@ -258,6 +275,8 @@ fn notes(textile: &Textile) -> Vec<String> {
     }
     notes.push(manifest.notes.clone());
     notes.push(origin(textile));
+    let known = manifest.uncertainty.as_ref().and_then(Uncertainty::words);
+    notes.extend(known.map(|words| format!("Known to: {words} (upright lines at 100 mm/s).")));
     notes.extend(textile.fall_backs());
     notes.push(
         "Amplitudes: means over all points, default filters, no gain; thin: each direction. \

@@ -3,6 +3,7 @@
 //! An import is a value that a window shows before anything is written; its files are a textile.
 
 mod description;
+mod ensemble;
 mod height_scale;
 mod heights;
 mod kes;
@@ -11,6 +12,7 @@ mod picture;
 mod profile_files;
 
 pub use description::Description;
+pub use ensemble::{Ensemble, Lamp};
 pub use height_scale::{HeightScale, ScaledRelief};
 pub use heights::{HeightImport, HeightPlace, ImportOptions};
 pub use kes::{KesFigures, KesImport};

@@ -8,7 +8,7 @@ use super::height_scale::{HeightScale, ScaledRelief, no_surface};
 use super::profile_files::{profile_files, shaded};
 use crate::build::{BuiltFile, PICTURE};
 use crate::error::TextileError;
-use crate::manifest::{AppearanceKeys, Construction, MANIFEST, Manifest, Provenance};
+use crate::manifest::{AppearanceKeys, Construction, MANIFEST, Manifest, Provenance, Uncertainty};
 use crate::metrology::{self, HeightOptions, Measured};
 use crate::picture::Tile;
 use crate::picture::brightness::Brightness;
@@ -16,12 +16,17 @@ use crate::picture::shading::{ShadingError, Shape};
 use crate::recipe::{ProfileFiles, SourceKeys as _, source};
 use crate::sources::Source;
 use crate::sources::picture::PictureSource;
-use crate::surface::{HeightMap, Probe, Representation, smd_um};
+use crate::surface::{Direction, HeightMap, Probe, Representation, Surface};
+use crate::tactile::{Filters, Levels};
 use crate::yarns::PX_PER_MM;
 use selvedge_foundation::files::sha256_hex;
+use selvedge_foundation::numerics::Random;
+use selvedge_foundation::quantity::level_db;
 
 /// The name of the map in the textile's folder.
 const MAP: &str = "heights.png";
+/// Where levels of a relief are taken, shares of its size.
+const PLACES: [f64; 3] = [0.2, 0.5, 0.8];
 
 /// What a textile of a picture is called and was made of.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -42,13 +47,15 @@ pub struct PictureTextile {
     pub lattice_px: Option<[[f64; 2]; 2]>,
     /// Whether the light was estimated.
     pub light_is_estimated: bool,
+    /// How far levels may be off: see [`Uncertainty::levels`].
+    pub levels: Vec<[f64; 4]>,
     /// Whether it is felt along four strokes or at every point.
     pub representation: Representation,
 }
 
 impl PictureTextile {
     /// The distance of a shape's samples, mm.
-    fn step_mm(&self, n: [usize; 2]) -> [f64; 2] {
+    pub(super) fn step_mm(&self, n: [usize; 2]) -> [f64; 2] {
         let n = n.map(|n| n as f64);
         let size_px = self.size_px.unwrap_or(n);
         [0, 1].map(|axis| size_px[axis] / n[axis] / self.px_per_mm)
@@ -81,8 +88,7 @@ pub(crate) fn to_textile(
     files.push(BuiltFile::new(PICTURE, bytes));
     let hash = Source::Picture(Box::new(keys.clone())).recipe_hash(path)?;
     keys.set_files(ProfileFiles::all(), Some(hash));
-    let figures = [("smd_um", smd_um(&profiles)), ("sq_um", kept.sq_um())];
-    let manifest = manifest(about, keys, figures);
+    let manifest = manifest(about, keys);
     files.push(manifest_file(&manifest, Path::new(MANIFEST))?);
     Ok(files)
 }
@@ -113,6 +119,28 @@ impl PictureTextile {
     /// See [`to_textile`].
     pub fn relief_um_of(shape: &Shape, about: &Self) -> Result<f64, TextileError> {
         Ok(heights(shape, about, &keys(shape, about))?.relief_um)
+    }
+}
+
+impl PictureTextile {
+    /// What is felt of a shape as a textile: levels of warp and weft by band, dB re 1 µm, under a
+    /// wire as wide as a contactor at a few places.
+    pub(super) fn levels_db(&self, shape: &Shape) -> Result<[[f64; 2]; 2], TextileError> {
+        let map = heights(shape, self, &keys(shape, self))?.map;
+        let mut means_um = [[0.0; 2]; 2];
+        for place in PLACES {
+            let middle_mm = map.size_mm().map(|mm| place * mm);
+            let profiles = map.strokes(&Probe::contactor(), middle_mm, &Random::new(0));
+            let surface = profiles.and_then(|profiles| Surface::from_profiles(profiles, 0.0));
+            let surface = surface.map_err(|(_, source)| no_surface(source))?;
+            let by_direction = Levels::of(&surface, &Filters::default()).direction_mean_um;
+            for (means, [forward, _]) in means_um.iter_mut().zip(Direction::BY_AXIS) {
+                for (mean, um) in means.iter_mut().zip(by_direction[forward.index()]) {
+                    *mean += um / PLACES.len() as f64;
+                }
+            }
+        }
+        Ok(means_um.map(|of_bands| of_bands.map(level_db)))
     }
 }
 
@@ -185,17 +213,23 @@ fn keys(shape: &Shape, about: &PictureTextile) -> PictureSource {
     })
 }
 
-fn manifest(about: &PictureTextile, keys: PictureSource, figures: [(&str, f64); 2]) -> Manifest {
+/// Only an SMD that was given was measured on the cloth; what the relief reads is not.
+fn manifest(about: &PictureTextile, keys: PictureSource) -> Manifest {
     let appearance = AppearanceKeys {
         image: PICTURE.to_owned(),
         px_per_mm: PX_PER_MM,
     };
-    let figures = figures.map(|(key, um)| (key.to_owned(), rounded(um)));
+    let measured = keys.smd_um.map(|um| ("smd_um".to_owned(), um));
+    let uncertainty = Uncertainty {
+        levels: about.levels.clone(),
+        ..Uncertainty::default()
+    };
     Manifest {
         construction: about.construction,
         notes: format!("heights from a picture ({})", keys.method.label()),
         appearance: Some(appearance),
-        measured: figures.into_iter().collect(),
+        measured: measured.into_iter().collect(),
+        uncertainty: Some(uncertainty).filter(|all| !all.levels.is_empty()),
         provenance: Some(Provenance::of(Vec::new())),
         ..Manifest::new(&about.name, Source::Picture(Box::new(keys)))
     }

@@ -15,6 +15,9 @@ const WEAVE: &str = "name = \"A\"\nconstruction = \"woven\"\nfibre = \"silk\"\n\
     colour = \"#ffffff\"\n[source.weft]\nwidth_um = 300.0\nthickness_um = 200.0\n\
     colour = \"#ffffff\"\n";
 
+const KNOWN: &str = "[uncertainty]\nfriction_level = 0.1\nlevels = [[40.0, 0.0, -2.0, 3.0], \
+    [40.0, 90.0, -4.0, 1.0], [320.0, 0.0, -1.0, 1.0]]\n";
+
 fn read_text(text: &str) -> Result<Manifest, String> {
     Manifest::from_toml(text, Path::new("t.toml")).map_err(|error| error.to_string())
 }
@@ -28,7 +31,8 @@ fn refused(text: &str, expected: &str) {
 
 #[test]
 fn what_is_written_reads_back() {
-    for text in [PROFILES, WEAVE] {
+    let known = format!("{PROFILES}{KNOWN}");
+    for text in [PROFILES, WEAVE, &known] {
         let manifest = read_text(text).unwrap();
         let written = manifest.to_toml(Path::new("t.toml")).unwrap();
         assert_eq!(read_text(&written).unwrap(), manifest);
@@ -122,6 +126,48 @@ fn values_that_make_no_sense_name_their_line() {
         &format!("{PROFILES}[measured]\nsmd_um = nan\n"),
         "t.toml:8: smd_um is NaN",
     );
+}
+
+#[test]
+fn a_band_goes_over_from_direction_to_direction_and_what_is_none_is_refused() {
+    use crate::tactile::Band;
+
+    let known = read_text(&format!("{PROFILES}{KNOWN}"))
+        .unwrap()
+        .uncertainty
+        .unwrap();
+    for (deg, band) in [
+        (0.0, [-2.0, 3.0]),
+        (45.0, [-3.0, 2.0]),
+        (90.0, [-4.0, 1.0]),
+        (135.0, [-3.0, 2.0]),
+        (-90.0, [-4.0, 1.0]),
+        (180.0, [-2.0, 3.0]),
+    ] {
+        let found = known.level_db(Band::Low, deg);
+        assert!(
+            (0..2).all(|end| (found[end] - band[end]).abs() < 1e-9),
+            "{deg}°: {found:?}"
+        );
+    }
+    assert_eq!(
+        known.level_db(Band::High, 90.0),
+        [-1.0, 1.0],
+        "one direction is all"
+    );
+    assert_eq!(Uncertainty::default().level_db(Band::Low, 10.0), [0.0; 2]);
+    assert_eq!(known.too_wide(), None);
+    for wrong in [
+        "[50.0, 0.0, -2.0, 3.0]",
+        "[40.0, 180.0, -2.0, 3.0]",
+        "[40.0, 0.0, 3.0, -2.0]",
+    ] {
+        let text = format!(
+            "{PROFILES}{}",
+            KNOWN.replace("[40.0, 0.0, -2.0, 3.0]", wrong)
+        );
+        refused(&text, "t.toml:9: [");
+    }
 }
 
 #[test]

@@ -4,6 +4,7 @@
 //! parameter runs the later ones again only.
 
 use super::autocorrelation::Autocorrelation;
+use super::basis::{Basis, mix};
 use super::colour::PeriodicColour;
 use super::directions::{DirectionOptions, Directions};
 use super::lattice::{Lattice, NoLattice};
@@ -109,7 +110,23 @@ impl Measurements {
 /// Near repeats that agree this much better than the mean cell explains are bent or uneven.
 const DRIFT: f64 = 0.6;
 
+/// Yarns that lie farther from the picture's rows are not taken for lying along them, radians.
+const MAX_TURN: f64 = std::f64::consts::FRAC_PI_8;
+
 impl Found {
+    /// How far the yarns that lie along the picture's rows are turned, radians clockwise: by the
+    /// short vector of the threads, or of the lattice, that is nearest to x. 0 if none is near.
+    pub fn turn_rad(&self) -> f64 {
+        let Basis { p1, p2 } = self
+            .lattice
+            .thread_grid
+            .unwrap_or_else(|| self.lattice.basis());
+        let vectors = [p1, p2, mix(p1, 1.0, p2, 1.0), mix(p1, 1.0, p2, -1.0)];
+        let turns = vectors.map(|[x, y]| (y * x.signum()).atan2(x.abs()));
+        let nearest = turns.into_iter().min_by(|a, b| a.abs().total_cmp(&b.abs()));
+        nearest.filter(|turn| turn.abs() <= MAX_TURN).unwrap_or(0.0)
+    }
+
     /// Whether repeats drift over the picture, so that the mean of all cells is blurred.
     pub fn drifts(&self) -> bool {
         self.explained_variance < DRIFT * self.lattice.level

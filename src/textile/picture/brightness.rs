@@ -10,9 +10,10 @@
 
 use super::basis::{Basis, dot, length, whole};
 use super::shading::{Light, LightEstimate, ShadingError, ShadingOptions, Shape};
+use super::source::between;
 use super::tile::Tile;
 use crate::surface::WINDOW_LENGTH_MM;
-use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::numerics::{Grid, to_index};
 use selvedge_foundation::progress::Progress;
 
 /// Windows that synthesized textile holds, along and across, at least.
@@ -67,6 +68,52 @@ impl Brightness {
             None => synthesized(tile, px_per_mm, n_threads),
         }
     }
+}
+
+/// Samples a side of a picture that is felt as it is, at most; over this share of its size its
+/// edges go over into each other, so that it repeats.
+const MAX_WHOLE: f64 = 384.0;
+const FADE: f64 = 0.1;
+
+impl Brightness {
+    /// The middle of a picture as it is, no cell and no mean: what varies from yarn to yarn stays.
+    /// Rows run at an angle (radians clockwise from x to the right), along a yarn.
+    pub fn of_picture(luminance: &Grid<f64>, angle_rad: f64) -> Self {
+        let (s, c) = angle_rad.sin_cos();
+        let [w, h] = [luminance.width() as f64, luminance.height() as f64];
+        // The largest rectangle of the picture's own sides that fits.
+        let share = (w / (w * c.abs() + h * s.abs())).min(h / (w * s.abs() + h * c.abs()));
+        let n = [w, h].map(|side| to_index((side * share).min(MAX_WHOLE * (1.0 + FADE))).max(1));
+        let middle = [0.5 * (w - 1.0), 0.5 * (h - 1.0)];
+        let at = |column: usize, row: usize| {
+            let x = column as f64 - 0.5 * (n[0] - 1) as f64;
+            let y = row as f64 - 0.5 * (n[1] - 1) as f64;
+            let place = [middle[0] + x * c - y * s, middle[1] + x * s + y * c];
+            between(luminance, place, |a, b, t| a + (b - a) * t)
+        };
+        let cut = faded(&Grid::from_fn(n[0], n[1], at));
+        let cut = faded(&cut.transposed()).transposed();
+        Self {
+            size_px: [cut.width() as f64, cut.height() as f64],
+            values: upright(&cut),
+            angle_rad,
+            extent: Extent::Repeat { shear_rad: 0.0 },
+        }
+    }
+}
+
+/// Rows whose last samples went over into their first.
+fn faded(grid: &Grid<f64>) -> Grid<f64> {
+    let n = to_index(grid.width() as f64 / (1.0 + FADE)).max(1);
+    let over = grid.width() - n;
+    Grid::from_fn(n, grid.height(), |column, row| {
+        let row = grid.row(row);
+        if column >= over {
+            return row[column];
+        }
+        let share = (column as f64 + 0.5) / over as f64;
+        row[n + column] + (row[column] - row[n + column]) * share
+    })
 }
 
 /// Rows from the lowest y. Divided light may pass white by a little: 0…1 is kept.
@@ -318,6 +365,38 @@ mod tests {
         );
         let right = agreement(&basis, (&cut, &shape(&cut)), |x, y| [x, y]);
         assert!(right > 0.85, "{right}");
+    }
+
+    #[test]
+    fn a_picture_as_it_is_goes_on_at_its_other_side_and_turns_with_its_yarns() {
+        let value =
+            |x: f64, y: f64| 0.5 + 0.2 * (0.31 * x).sin() + 0.1 * (0.17 * y + 0.02 * x).cos();
+        let picture = Grid::from_fn(200, 150, |x, y| value(x as f64, y as f64));
+        let cut = Brightness::of_picture(&picture, 0.0);
+        let (w, h) = (cut.values.width(), cut.values.height());
+        assert_eq!([w as f64, h as f64], cut.size_px);
+        let largest = |pairs: &mut dyn Iterator<Item = (f64, f64)>| {
+            pairs.fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()))
+        };
+        let row = |j: usize| cut.values.row(j);
+        let inside =
+            largest(&mut (0..h).flat_map(|j| row(j).windows(2).map(|two| (two[0], two[1]))));
+        let seam = largest(&mut (0..h).map(|j| (row(j)[w - 1], row(j)[0])));
+        let upper = largest(&mut (0..w).map(|i| (row(h - 1)[i], row(0)[i])));
+        assert!(
+            seam < 1.5 * inside && upper < 1.5 * inside,
+            "{seam} {upper} {inside}"
+        );
+        // Stripes along the yarns are level in a picture that is turned with them.
+        let angle_rad = 0.2_f64;
+        let (s, c) = angle_rad.sin_cos();
+        let stripes = Grid::from_fn(200, 150, |x, y| {
+            0.5 + 0.3 * (0.3 * (c * y as f64 - s * x as f64)).sin()
+        });
+        let turned = Brightness::of_picture(&stripes, angle_rad).values;
+        let row = turned.row(turned.height() / 2);
+        let along = largest(&mut row.iter().map(|value| (*value, row[0])));
+        assert!(along < 0.02, "{along}");
     }
 
     #[test]

@@ -6,14 +6,8 @@ use serde::Serialize;
 
 use super::brightness::{Brightness, Extent};
 use super::shading::{Light, LightEstimate, ShadingError, ShadingOptions, Shape};
-use super::tile::Tile;
 use selvedge_foundation::files::{FileError, GrayImage};
 use selvedge_foundation::progress::Progress;
-
-/// Slants that an estimate is believed in, degrees; what is taken instead, as flatbed scanners
-/// have it.
-const BELIEVED_DEG: std::ops::RangeInclusive<f64> = 20.0..=70.0;
-const ASSUMED_DEG: f64 = 45.0;
 
 /// Heights found on a picture, with where they come from.
 #[derive(Debug, Clone)]
@@ -56,21 +50,19 @@ struct Span {
 }
 
 impl Relief {
-    /// Finds the heights of a tile under a light, or under the light that the picture suggests.
+    /// Finds the heights of a brightness under a light, or under the light that it suggests.
     ///
     /// # Errors
     /// See `shading`.
     pub fn of(
-        tile: &Tile,
-        px_per_mm: Option<f64>,
+        brightness: Brightness,
         light: Option<Light>,
-        (options, n_threads): (&ShadingOptions, usize),
+        options: &ShadingOptions,
         progress: &mut Progress<'_>,
     ) -> Result<Self, ShadingError> {
-        let brightness = Brightness::of(tile, px_per_mm.unwrap_or(1.0), n_threads);
         let estimate = match light {
             Some(_) => None,
-            None => Some(believed(brightness.estimated_light()?)),
+            None => Some(brightness.estimated_light()?.believed()),
         };
         let light = light.or_else(|| estimate.as_ref().map(|e| e.light));
         let light = light.ok_or(ShadingError::Empty)?;
@@ -167,17 +159,4 @@ impl Relief {
         };
         picture.to_png(Path::new("height.png"))
     }
-}
-
-/// An estimate with another slant where its own cannot be.
-fn believed(mut estimate: LightEstimate) -> LightEstimate {
-    if !BELIEVED_DEG.contains(&estimate.light.slant_deg) {
-        estimate.light.slant_deg = ASSUMED_DEG;
-        let words = format!(
-            "{} {ASSUMED_DEG}° is taken instead, as in a flatbed scanner.",
-            estimate.words
-        );
-        estimate.words = words;
-    }
-    estimate
 }

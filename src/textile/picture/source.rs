@@ -145,7 +145,7 @@ impl Picture {
 }
 
 /// A value between samples, bilinear; beyond the edges the edges' values.
-fn between<T: Copy>(grid: &Grid<T>, [x, y]: Place, blend: impl Fn(T, T, f64) -> T) -> T {
+pub(super) fn between<T: Copy>(grid: &Grid<T>, [x, y]: Place, blend: impl Fn(T, T, f64) -> T) -> T {
     let index = |at: f64, n: usize| {
         let at = at.clamp(0.0, n as f64 - 1.0);
         let first = to_index(at);

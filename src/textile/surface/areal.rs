@@ -17,8 +17,6 @@ use super::{
 };
 use selvedge_foundation::numerics::{Random, to_index};
 
-/// Width of the wire that areal spectra are read with, mm: the distance of points.
-pub const AREAL_WIRE_MM: f64 = 1.0;
 /// Points along a repeat of a periodic map at which looking for a better fit ends.
 const MAX_POINTS_OF_REPEATS: usize = 64;
 /// How far the last point of a periodic map may miss the first, mm, without looking further.
@@ -39,10 +37,7 @@ impl Surface {
         map: &HeightMap,
         noise_floor_um2_mm: f64,
     ) -> Result<Self, (Direction, SurfaceError)> {
-        let probe = Probe {
-            width_mm: AREAL_WIRE_MM,
-            ..Probe::ideal()
-        };
+        let probe = Probe::contactor();
         let middle_mm = map.size_mm().map(|size_mm| 0.5 * size_mm);
         let [warp, _, weft, _] = map.strokes(&probe, middle_mm, &Random::new(0))?;
         let profiles: ProfileSet = [warp, None, weft, None];

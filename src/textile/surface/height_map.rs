@@ -177,7 +177,7 @@ impl HeightMap {
             return self.clone();
         }
         let along_rows = filled_along_rows(&self.heights_um);
-        let along_columns = transposed(&filled_along_rows(&transposed(&self.heights_um)));
+        let along_columns = filled_along_rows(&self.heights_um.transposed()).transposed();
         let mean = self.mean_um();
         let both = along_rows.values().iter().zip(along_columns.values());
         let either = both.map(|(&a, &b)| match (a.is_nan(), b.is_nan()) {
@@ -288,13 +288,6 @@ fn fill_gaps(heights: &mut [f64]) {
         let height = heights[last];
         heights[last + 1..].fill(height);
     }
-}
-
-/// Rows as columns.
-pub(super) fn transposed(grid: &Grid<f64>) -> Grid<f64> {
-    Grid::from_fn(grid.height(), grid.width(), |column, row| {
-        grid.row(column)[row]
-    })
 }
 
 /// Three linear equations by elimination; `None` if they do not determine the answer.

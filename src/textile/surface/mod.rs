@@ -19,7 +19,6 @@ mod profile;
 mod spectra;
 mod tracks;
 
-pub use areal::AREAL_WIRE_MM;
 pub(crate) use band::{OFFICIAL_CUT_OFF_MM, without_long_waves};
 pub use direction::{Direction, Representation};
 pub use error::SurfaceError;

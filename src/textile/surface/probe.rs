@@ -49,6 +49,15 @@ impl Probe {
         }
     }
 
+    /// A wire as wide as a contactor, without friction or noise: what areal spectra are read with.
+    /// Each point stands for its own millimetre.
+    pub fn contactor() -> Self {
+        Self {
+            width_mm: 1.0,
+            ..Self::ideal()
+        }
+    }
+
     /// Samples that a stroke needs beyond either of its ends, `step_mm` apart: where the disc may
     /// touch.
     pub fn margin_samples(&self, step_mm: f64) -> usize {

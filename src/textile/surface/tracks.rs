@@ -1,7 +1,6 @@
 //! A height map as tracks side by side: what a wire of some width rides on.
 
 use super::HeightMap;
-use super::height_map::transposed;
 use selvedge_foundation::numerics::{Grid, to_index};
 
 /// The tracks of a map along u, or along w, missing heights filled.
@@ -17,7 +16,7 @@ impl Tracks {
     pub(super) fn of(map: &HeightMap, is_weft: bool) -> Self {
         let filled = map.filled();
         let rows = if is_weft {
-            transposed(filled.heights_um())
+            filled.heights_um().transposed()
         } else {
             filled.heights_um().clone()
         };

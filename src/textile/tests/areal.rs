@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::surface::{AREAL_WIRE_MM, Direction, Probe, Representation, Surface};
+use crate::surface::{Direction, Probe, Representation, Surface};
 use crate::tactile::{Filters, Levels, Tuning};
 use crate::*;
 use selvedge_scratch::ScratchFolder;
@@ -63,10 +63,7 @@ fn an_areal_textile_is_loaded_felt_and_indexed_like_any_other() {
 fn the_levels_of_both_agree_where_the_wire_is_the_same() {
     let map = twill("").source.height_map().unwrap().unwrap();
     assert!(map.is_periodic());
-    let wire = Probe {
-        width_mm: AREAL_WIRE_MM,
-        ..Probe::ideal()
-    };
+    let wire = Probe::contactor();
     let middle_mm = map.size_mm().map(|mm| 0.5 * mm);
     let random = selvedge_foundation::numerics::Random::new(1);
     let [warp, _, weft, _] = map.strokes(&wire, middle_mm, &random).unwrap();

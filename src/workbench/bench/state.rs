@@ -32,6 +32,7 @@ use selvedge_device::FaultWords;
 use selvedge_render::RenderScene;
 use selvedge_render::array::ContactInspector;
 use selvedge_render::scene::{LoadedScene, Scene};
+use selvedge_textile::Uncertainty;
 
 /// The scene as the engine has it.
 pub(crate) struct EngineScene {
@@ -45,6 +46,20 @@ pub(crate) struct EngineScene {
     pub(crate) preparing: Preparing,
     /// The gains that the engine has.
     pub(crate) applied_gains: AppliedGains,
+}
+
+impl EngineScene {
+    /// How far the levels of a placed textile may be off, where that is said.
+    pub(crate) fn uncertainty(&self, index: usize) -> Option<&Uncertainty> {
+        let known = self
+            .loaded
+            .textiles()
+            .get(index)?
+            .manifest()
+            .uncertainty
+            .as_ref();
+        known.filter(|known| !known.levels.is_empty())
+    }
 }
 
 /// What plots look at a contactor with.

@@ -5,16 +5,54 @@ use crate::{Effort, ReportError, textiles};
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_textile::picture::shading::{Light, picture_of};
 use selvedge_textile::surface::HeightMap;
-use selvedge_textile::{Library, Source, Weave};
+use selvedge_textile::{Lamp, Library, Source, Weave};
 
 /// Where the light comes from: along neither yarn.
 pub(super) const LIGHT: Light = Light {
     slant_deg: 45.0,
     tilt_deg: 30.0,
 };
-/// Share of white that faces the light, and noise of the camera.
+/// Share of white that faces the light.
 const ALBEDO: f64 = 0.8;
-const NOISE: f64 = 0.01;
+
+/// How a picture is taken, and what is known of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Taking {
+    /// Pixels a side at most, each of so many points of the relief each way.
+    pub(super) side_px: usize,
+    pub(super) points_a_px: usize,
+    /// Noise of the camera, share of white.
+    pub(super) noise: f64,
+    /// Bits a pixel.
+    pub(super) bits: i32,
+    /// The lamp as it is told.
+    pub(super) lamp: Lamp,
+}
+
+impl Taking {
+    /// Under a lamp that is told right, with little noise.
+    pub(super) const PLAIN: Self = Self {
+        side_px: 300,
+        points_a_px: 2,
+        noise: 0.01,
+        bits: 16,
+        lamp: Lamp::Known {
+            light: LIGHT,
+            within_deg: Lamp::WITHIN_DEG,
+        },
+    };
+
+    /// In words.
+    pub(super) fn name(&self) -> String {
+        let light = match self.lamp {
+            Lamp::Unknown => "light unknown",
+            Lamp::Known { light, .. } if light == LIGHT => "light known",
+            Lamp::Known { .. } => "light 15° off",
+        };
+        let (per_mm, bits, percent) = (50 / self.points_a_px, self.bits, 100.0 * self.noise);
+        format!("{per_mm} px/mm, {light}, {bits} bits, noise {percent} %")
+    }
+}
 
 /// The fine cloth that has a double.
 const FINE: &str = "polyamide-taffeta";
@@ -37,6 +75,7 @@ const IDS: [&str; 11] = [
 const CORNER: [usize; 4] = [0, 0, 500, 500];
 
 /// A cloth with its relief.
+#[derive(Debug, Clone)]
 pub(super) struct Cloth {
     pub(super) name: String,
     pub(super) map: HeightMap,
@@ -91,9 +130,16 @@ pub(super) struct Photograph {
 }
 
 impl Cloth {
-    /// Its picture under [`LIGHT`]: `side_px` pixels a side at most, each the mean of
-    /// `points_a_px` points of the relief each way, with the camera's noise.
-    pub(super) fn photograph(&self, side_px: usize, points_a_px: usize, seed: u64) -> Photograph {
+    /// Its picture under [`LIGHT`]: pixels are means of the relief's points.
+    pub(super) fn photograph(&self, taking: &Taking, seed: u64) -> Photograph {
+        let Taking {
+            side_px,
+            points_a_px,
+            noise,
+            bits,
+            ..
+        } = *taking;
+        let steps = 2.0_f64.powi(bits) - 1.0;
         let step_mm = self.map.step_mm();
         let fine = picture_of(&in_px(&self.map), LIGHT);
         let sides = [fine.width(), fine.height()].map(|n| (n / points_a_px).min(side_px));
@@ -105,7 +151,8 @@ impl Cloth {
                 let rows = row * points_a_px..(row + 1) * points_a_px;
                 let sums = rows.map(|row| fine.row(row)[columns.clone()].iter().sum::<f64>());
                 let mean = sums.sum::<f64>() / (points_a_px * points_a_px) as f64;
-                *value = (ALBEDO * mean + NOISE * random.normal()).clamp(0.0, 1.0);
+                let seen = (ALBEDO * mean + noise * random.normal()).clamp(0.0, 1.0);
+                *value = (seen * steps).round() / steps;
             }
         }
         Photograph {

@@ -13,6 +13,8 @@ pub(super) struct Felt {
     pub(super) smd_um: f64,
     /// Levels of 40 Hz and 320 Hz at 100 mm/s, dB re 1 µm.
     pub(super) levels_db: [f64; 2],
+    /// The same of warp and weft on their own.
+    pub(super) axis_levels_db: [[f64; 2]; 2],
     /// Amplitude of every bin of the local spectra, rms over places, µm: the warp's bins, then the
     /// weft's.
     pub(super) spectrum_um: Vec<f64>,
@@ -23,6 +25,7 @@ impl Felt {
     pub(super) fn of(sets: Vec<ProfileSet>, name: &str) -> Result<Self, ReportError> {
         let n = sets.len().max(1) as f64;
         let (mut smd_um, mut means_um, mut powers) = (0.0, [0.0; 2], Vec::new());
+        let mut axis_um = [[0.0; 2]; 2];
         for profiles in sets {
             let surface = Surface::from_profiles(profiles, 0.0);
             let surface = surface.map_err(|(_, source)| wrong(name)(source))?;
@@ -30,6 +33,15 @@ impl Felt {
             let levels = Levels::of(&surface, &Filters::default());
             for (sum, mean_um) in means_um.iter_mut().zip(levels.mean_um) {
                 *sum += mean_um / n;
+            }
+            let along = [Direction::WarpForward, Direction::WeftForward];
+            for (sums, direction) in axis_um.iter_mut().zip(along) {
+                for (sum, um) in sums
+                    .iter_mut()
+                    .zip(levels.direction_mean_um[direction.index()])
+                {
+                    *sum += um / n;
+                }
             }
             let of_set = powers_um2(&surface);
             powers.resize(of_set.len(), 0.0);
@@ -40,6 +52,7 @@ impl Felt {
         Ok(Self {
             smd_um,
             levels_db: means_um.map(level_db),
+            axis_levels_db: axis_um.map(|um| um.map(level_db)),
             spectrum_um: powers.into_iter().map(f64::sqrt).collect(),
         })
     }

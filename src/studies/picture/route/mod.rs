@@ -7,9 +7,11 @@ mod felt;
 mod results;
 mod ways;
 
-use crate::{Bench, Findings, ReportError, Study};
-use cloths::cloths;
+use crate::{Bench, Effort, Findings, ReportError, Study};
+use cloths::{LIGHT, Taking, cloths};
 use results::Tried;
+use selvedge_textile::Lamp;
+use selvedge_textile::picture::shading::Light;
 use ways::Subject;
 
 /// What is felt of model cloths by four routes.
@@ -24,22 +26,25 @@ pub(crate) const STUDY: Study = Study {
 };
 
 fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-    // 20 mm at a scanner's 635 points an inch, and 10 mm at 1270.
-    let pictures = bench.effort.pick(vec![[240, 2]], vec![[500, 2], [500, 1]]);
+    let takings = takings(bench.effort);
     let mut findings = Findings::default();
-    for (done, picture) in pictures.iter().enumerate() {
-        bench.step(done as f64 / pictures.len() as f64, "weaving and knitting")?;
+    bench.step(0.0, "weaving and knitting")?;
+    let all = cloths(bench.effort)?;
+    for (done, taking) in takings.iter().enumerate() {
+        let is_first = done == 0;
         let mut results = Vec::new();
-        let all = cloths(bench.effort)?;
-        let n = all.len() as f64;
-        for (number, cloth) in all.into_iter().enumerate() {
-            let share = (done as f64 + number as f64 / n) / pictures.len() as f64;
-            bench.step(share, &cloth.name)?;
-            let is_timed = number == 0;
-            let subject = Subject::new(cloth, *picture, bench.seed)?;
-            results.push(Tried::of(&subject, is_timed, bench));
+        // Doubles are looked at once.
+        for (number, cloth) in all
+            .iter()
+            .filter(|cloth| is_first || !cloth.is_double)
+            .enumerate()
+        {
+            let share = (done as f64 + number as f64 / all.len() as f64) / takings.len() as f64;
+            bench.step(share, &format!("{}, {}", taking.name(), cloth.name))?;
+            let subject = Subject::new(cloth.clone(), taking, bench.seed)?;
+            results.push(Tried::of(&subject, is_first && number == 0, bench));
         }
-        results::report(&results, setting(*picture), done == 0, &mut findings);
+        results::report(&results, &taking.name(), is_first, &mut findings);
     }
     findings.notes.push(
         "The level error is the larger of both bands' at 100 mm/s. smd_error_percent and \
@@ -56,11 +61,45 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
     Ok(findings)
 }
 
-/// How a picture was taken, in words.
-fn setting([_, points_a_px]: [usize; 2]) -> &'static str {
-    if points_a_px == 1 {
-        "50 px/mm"
-    } else {
-        "25 px/mm"
+/// How pictures are taken: 12 mm at a scanner's 635 points an inch, with more or less known of the
+/// light, bits and noise, the plainest first; then 6 mm at 1270.
+fn takings(effort: Effort) -> Vec<Taking> {
+    let plain = Taking::PLAIN;
+    let off = Lamp::Known {
+        light: Light {
+            tilt_deg: LIGHT.tilt_deg + 15.0,
+            ..LIGHT
+        },
+        within_deg: Lamp::WITHIN_DEG,
+    };
+    if effort == Effort::Quick {
+        let quick = Taking {
+            side_px: 160,
+            ..plain
+        };
+        return vec![
+            quick,
+            Taking {
+                lamp: Lamp::Unknown,
+                ..quick
+            },
+        ];
     }
+    let mut all = Vec::new();
+    for lamp in [plain.lamp, off, Lamp::Unknown] {
+        for (bits, noise) in [(16, 0.01), (8, 0.03)] {
+            let taking = Taking {
+                noise,
+                bits,
+                lamp,
+                ..plain
+            };
+            all.push(taking);
+        }
+    }
+    all.push(Taking {
+        points_a_px: 1,
+        ..plain
+    });
+    all
 }

@@ -5,7 +5,7 @@ use super::ways::{Subject, Way};
 use crate::chart::chart;
 use crate::{Bench, Findings, Row, Timing};
 use selvedge_chart::{Axis, Chart, Series, Style};
-use selvedge_foundation::numerics::median;
+use selvedge_foundation::numerics::{median, quantile};
 use selvedge_statistics::rank_correlation;
 use selvedge_textile::surface::BIN_SPACING_PER_MM;
 
@@ -20,6 +20,8 @@ pub(super) struct Tried {
     is_double: bool,
     truth: Felt,
     by_way: Vec<(Way, Result<Felt, String>, Option<Timing>)>,
+    /// Of warp and weft by band: the ends of what is believed less the truth, dB.
+    band_db: Option<[[f64; 2]; 4]>,
 }
 
 impl Tried {
@@ -43,6 +45,7 @@ impl Tried {
             is_double: subject.cloth.is_double,
             truth: subject.truth.clone(),
             by_way: by_way.into(),
+            band_db: subject.band_db(),
         }
     }
 
@@ -118,6 +121,11 @@ struct Summary {
     n: usize,
     n_cloths: usize,
     median_db: f64,
+    /// Nine of ten cloths are nearer.
+    p90_db: f64,
+    /// Of what is believed, the share of truths between its ends, %, and its mean width, dB; NaN
+    /// of other routes.
+    band: [f64; 2],
     median_spectrum_percent: f64,
     median_smd_percent: f64,
     /// Rank correlations of SMD, A40 and A320.
@@ -168,6 +176,14 @@ impl Summary {
             n: pairs.len(),
             n_cloths: single().count(),
             median_db: of_pairs(&|truth, felt| larger(felt.apart_db(truth))),
+            p90_db: {
+                let off = |[truth, felt]: &[&Felt; 2]| larger(felt.apart_db(truth));
+                quantile(&mut pairs.iter().map(off).collect::<Vec<f64>>(), 0.9)
+            },
+            band: match way {
+                Way::Believed => band(single()),
+                _ => [f64::NAN; 2],
+            },
             median_spectrum_percent: of_pairs(&|truth, felt| felt.spectrum_off_percent(truth)),
             median_smd_percent: of_pairs(&|truth, felt| felt.smd_off_percent(truth).abs()),
             ranks: [
@@ -183,6 +199,9 @@ impl Summary {
         let case = format!("{} of {} cloths", self.n, self.n_cloths);
         Row::of(way.name(), "", case)
             .error(self.median_db.is_finite().then_some(self.median_db))
+            .number("error_p90_db", 3, self.p90_db)
+            .number("band_holds_percent", 3, self.band[0])
+            .number("band_width_db", 3, self.band[1])
             .number("spectrum_error_percent", 3, self.median_spectrum_percent)
             .number("smd_error_percent", 3, self.median_smd_percent)
             .number("spearman_smd", 3, self.ranks[0])
@@ -205,22 +224,46 @@ impl Summary {
                 "unknown".to_owned()
             }
         };
-        format!(
-            "{name}: {} of {} cloths; median level error {} dB, median spectrum error {} %, rank \
-             correlation of SMD {}, of A40 {}, of A320 {}; the fine cloth is {} dB from its \
-             doubles, in truth \
-             {} dB.",
+        let mut note = format!(
+            "{name}: {} of {} cloths; level error {} dB in the median, nine of ten below {} dB; \
+             median spectrum error {} %, rank correlation of SMD {}, of A40 {}, of A320 {}",
             self.n,
             self.n_cloths,
             said(self.median_db, 1),
+            said(self.p90_db, 1),
             said(self.median_spectrum_percent, 0),
             said(self.ranks[0], 2),
             said(self.ranks[1], 2),
             said(self.ranks[2], 2),
-            said(self.pair_db[1], 1),
-            said(self.pair_db[0], 1),
-        )
+        );
+        let [doubles, truly] = [self.pair_db[1], self.pair_db[0]].map(|db| said(db, 1));
+        if self.pair_db[1].is_finite() {
+            let words =
+                format!("; the fine cloth is {doubles} dB from its doubles, in truth {truly} dB");
+            note.push_str(&words);
+        }
+        let [held, width] = [said(self.band[0], 0), said(self.band[1], 1)];
+        if self.band[0].is_finite() {
+            let words = format!(
+                "; the band from 16 to 84 % is {width} dB wide and holds {held} % of truths"
+            );
+            note.push_str(&words);
+        }
+        note + "."
     }
+}
+
+/// The share of truths, by axis and band, between the ends of what is believed, %, and the mean
+/// width, dB.
+fn band<'a>(cloths: impl Iterator<Item = &'a Tried>) -> [f64; 2] {
+    let bands: Vec<[f64; 2]> = cloths.filter_map(|tried| tried.band_db).flatten().collect();
+    let n = bands.len() as f64;
+    let n_held = bands
+        .iter()
+        .filter(|[low, high]| *low <= 0.0 && *high >= 0.0)
+        .count();
+    let width: f64 = bands.iter().map(|[low, high]| high - low).sum();
+    [100.0 * n_held as f64 / n, width / n]
 }
 
 /// Whether fine cloths that are alike become distinct, and by which route.
@@ -319,6 +362,7 @@ mod tests {
         Felt {
             smd_um: 10.0_f64.powf(low_db / 20.0),
             levels_db: [low_db, low_db - 1.0],
+            axis_levels_db: [[low_db, low_db - 1.0]; 2],
             spectrum_um: vec![low_db.abs() + 1.0, 1.0],
         }
     }
@@ -334,6 +378,7 @@ mod tests {
                 (Way::ALL[1], Ok(felt(20.0 - 3.0 * low_db)), None),
                 (Way::ALL[2], Err("no lattice".to_owned()), None),
             ],
+            band_db: None,
         };
         [1.0, 2.0, 5.0, 9.0].map(tried).into()
     }

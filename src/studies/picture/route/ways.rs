@@ -1,6 +1,6 @@
 //! The routes from a cloth to what is felt of it.
 
-use super::cloths::{Cloth, LIGHT, Photograph};
+use super::cloths::{Cloth, Photograph, Taking};
 use super::felt::Felt;
 use crate::ReportError;
 use crate::picture::analysed;
@@ -8,9 +8,13 @@ use crate::textiles::wrong;
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_foundation::progress::Progress;
 use selvedge_textile::picture::Rectangle;
-use selvedge_textile::picture::shading::{Light, Method, ShadingOptions, Shape};
-use selvedge_textile::surface::{AREAL_WIRE_MM, Direction, HeightMap, Probe, Profile, ProfileSet};
-use selvedge_textile::{HeightScale, Reduced, ScaledRelief, TextileError, smd_um};
+use selvedge_textile::picture::brightness::Brightness;
+use selvedge_textile::picture::shading::{Light, LightEstimate, Method, ShadingOptions, Shape};
+use selvedge_textile::surface::{Direction, HeightMap, Probe, Profile, ProfileSet};
+use selvedge_textile::{
+    Ensemble, HeightScale, Lamp, PictureTextile, Reduced, ScaledRelief, TextileError, n_threads,
+    smd_um,
+};
 
 /// Harmonics that a restored profile keeps.
 const N_HARMONICS: usize = 8;
@@ -28,15 +32,19 @@ pub(super) enum Way {
     Picture(Method),
     /// The shape of the whole picture by the linear method, no lattice and no mean cell.
     Whole,
+    /// Of many reliefs of the whole picture the one that is nearest to what all are believed to
+    /// feel like.
+    Believed,
 }
 
 impl Way {
-    pub(super) const ALL: [Self; 5] = [
+    pub(super) const ALL: [Self; 6] = [
         Self::Kes,
         Self::Restoration,
         Self::Picture(Method::Variational),
         Self::Picture(Method::Linear),
         Self::Whole,
+        Self::Believed,
     ];
 
     pub(super) fn name(self) -> String {
@@ -45,11 +53,12 @@ impl Way {
             Self::Restoration => "KES, restored".to_owned(),
             Self::Picture(method) => format!("picture, {}", method.label()),
             Self::Whole => "picture without lattice, linear".to_owned(),
+            Self::Believed => "picture as it is, by evidence".to_owned(),
         }
     }
 
     pub(super) fn is_picture(self) -> bool {
-        matches!(self, Self::Picture(_) | Self::Whole)
+        matches!(self, Self::Picture(_) | Self::Whole | Self::Believed)
     }
 }
 
@@ -59,7 +68,9 @@ pub(super) struct Subject {
     pub(super) strokes: ProfileSet,
     pub(super) photograph: Photograph,
     pub(super) truth: Felt,
+    lamp: Lamp,
     cell: Result<Rectangle, String>,
+    believed: Result<(Ensemble, HeightMap), String>,
 }
 
 /// The rectangle that repeats in a photograph, as the mean of all.
@@ -83,32 +94,30 @@ fn strokes(
 
 /// What a wire as wide as a contactor feels of a relief at five places, without friction or noise.
 fn felt(map: &HeightMap, name: &str) -> Result<Felt, ReportError> {
-    let wire = Probe {
-        width_mm: AREAL_WIRE_MM,
-        ..Probe::ideal()
-    };
-    let at = |share: f64| strokes(map, &wire, share, &Random::new(0));
+    let at = |share: f64| strokes(map, &Probe::contactor(), share, &Random::new(0));
     let sets: Result<Vec<ProfileSet>, TextileError> = PLACES.into_iter().map(at).collect();
     Felt::of(sets?, name)
 }
 
 impl Subject {
-    /// Strokes over a cloth and photographs it, `side_px` pixels a side of `points_a_px` points.
-    pub(super) fn new(
-        cloth: Cloth,
-        [side_px, points_a_px]: [usize; 2],
-        seed: u64,
-    ) -> Result<Self, ReportError> {
+    /// Strokes over a cloth and photographs it.
+    pub(super) fn new(cloth: Cloth, taking: &Taking, seed: u64) -> Result<Self, ReportError> {
         let random = Random::new(seed).branch("tester").branch(&cloth.name);
         let strokes = strokes(&cloth.map, &Probe::default(), 0.5, &random)?;
-        let photograph = cloth.photograph(side_px, points_a_px, seed);
+        let photograph = cloth.photograph(taking, seed);
         let truth = felt(&cloth.map, &cloth.name)?;
-        Ok(Self {
+        let subject = Self {
             cloth,
             strokes,
             cell: mean_cell(&photograph),
             photograph,
             truth,
+            lamp: taking.lamp,
+            believed: Err(String::new()),
+        };
+        Ok(Self {
+            believed: subject.believe(),
+            ..subject
         })
     }
 
@@ -121,14 +130,17 @@ impl Subject {
                 .map_err(ReportError::from)
                 .and_then(|profiles| Felt::of(vec![profiles], name)),
             Way::Picture(_) | Way::Whole => felt(&self.relief_of(&self.cell, way)?, name),
+            Way::Believed => felt(&self.believed.as_ref().map_err(String::clone)?.1, name),
         };
         made.map_err(|error| error.to_string())
     }
 
     /// The relief that a picture shows, from the picture on.
     pub(super) fn relief(&self, way: Way) -> Result<HeightMap, String> {
-        if way == Way::Whole {
-            return self.relief_of(&self.cell, way);
+        match way {
+            Way::Whole => return self.relief_of(&self.cell, way),
+            Way::Believed => return Ok(self.believe()?.1),
+            _ => {}
         }
         self.relief_of(&mean_cell(&self.photograph), way)
     }
@@ -137,7 +149,8 @@ impl Subject {
     fn relief_of(&self, cell: &Result<Rectangle, String>, way: Way) -> Result<HeightMap, String> {
         let Way::Picture(method) = way else {
             let whole = &self.photograph.luminance;
-            return self.shaped(whole, LIGHT, self.photograph.px_mm, Method::Linear);
+            let light = self.told(whole)?;
+            return self.shaped(whole, light, self.photograph.px_mm, Method::Linear);
         };
         let cell = cell.as_ref().map_err(String::clone)?;
         let mut brightness = cell.values.clone();
@@ -145,13 +158,55 @@ impl Subject {
             *value = value.clamp(0.0, 1.0);
         }
         // The light turns with the cell; rows are those of heights, so angles count upwards.
+        let told = self.told(&self.photograph.luminance)?;
         let light = Light {
-            tilt_deg: LIGHT.tilt_deg - cell.angle_rad.to_degrees(),
-            ..LIGHT
+            tilt_deg: told.tilt_deg - cell.angle_rad.to_degrees(),
+            ..told
         };
         let n = [brightness.width(), brightness.height()].map(|n| n as f64);
         let step_mm = [0, 1].map(|i| cell.size_px[i] / n[i] * self.photograph.px_mm[i]);
         self.shaped(&brightness, light, step_mm, method)
+    }
+
+    /// The light as it is told, or as it is estimated.
+    fn told(&self, luminance: &Grid<f64>) -> Result<Light, String> {
+        match self.lamp {
+            Lamp::Known { light, .. } => Ok(light),
+            Lamp::Unknown => {
+                let estimate = LightEstimate::of(luminance).map_err(|error| error.to_string())?;
+                Ok(estimate.believed().light)
+            }
+        }
+    }
+
+    /// Many reliefs of the whole picture, and the one that is kept.
+    fn believe(&self) -> Result<(Ensemble, HeightMap), String> {
+        let brightness = Brightness::of_picture(&self.photograph.luminance.turned_over(), 0.0);
+        let about = PictureTextile {
+            name: self.cloth.name.clone(),
+            px_per_mm: 1.0 / self.photograph.px_mm[0],
+            scale: HeightScale::SmdUm(smd_um(&self.strokes)),
+            ..PictureTextile::default()
+        };
+        let failed = |error: TextileError| error.to_string();
+        Progress::unheard(|progress| {
+            let lamp = self.lamp;
+            let ensemble = Ensemble::of(&brightness, &about, lamp, n_threads(), progress);
+            let ensemble = ensemble.map_err(failed)?;
+            let shape = ensemble
+                .shape(&brightness, &about, progress)
+                .map_err(failed)?;
+            let map = self.scaled(&shape, self.photograph.px_mm)?;
+            Ok((ensemble, map))
+        })
+    }
+
+    /// Of warp and weft by band, the ends of the band less the truth, dB.
+    pub(super) fn band_db(&self) -> Option<[[f64; 2]; 4]> {
+        let (ensemble, _) = self.believed.as_ref().ok()?;
+        let bands = ensemble.levels([0, 1].map(|axis| self.truth.axis_levels_db[axis]));
+        let ends: Vec<[f64; 2]> = bands.iter().map(|&[.., low, high]| [low, high]).collect();
+        ends.try_into().ok()
     }
 
     fn shaped(
@@ -169,10 +224,14 @@ impl Subject {
             Shape::from_shading(brightness, light, &options, progress)
         })
         .map_err(|error| error.to_string())?;
+        self.scaled(&shape, step_mm)
+    }
+
+    /// A shape as high as reads the SMD of the strokes.
+    fn scaled(&self, shape: &Shape, step_mm: [f64; 2]) -> Result<HeightMap, String> {
         let scale = HeightScale::SmdUm(smd_um(&self.strokes));
         let tester = |map: &HeightMap| strokes(map, &Probe::default(), 0.5, &Random::new(1));
-        let scaled =
-            ScaledRelief::of(&shape, step_mm, scale, &tester).map_err(|e| e.to_string())?;
+        let scaled = ScaledRelief::of(shape, step_mm, scale, &tester).map_err(|e| e.to_string())?;
         Ok(scaled.map)
     }
 }

@@ -77,6 +77,11 @@ pub struct LightEstimate {
     pub words: String,
 }
 
+/// Slants that an estimate is believed in, degrees; what is taken instead, as flatbed scanners
+/// have it.
+const BELIEVED_DEG: std::ops::RangeInclusive<f64> = 20.0..=70.0;
+const ASSUMED_DEG: f64 = 45.0;
+
 /// Gradients that agree less than this tell no side.
 const AGREE: f64 = 0.1;
 
@@ -132,6 +137,22 @@ impl LightEstimate {
             axis_coherence: coherence,
             words: words.join(" "),
         })
+    }
+}
+
+impl LightEstimate {
+    /// The estimate with another slant where its own cannot be.
+    #[must_use]
+    pub fn believed(mut self) -> Self {
+        if !BELIEVED_DEG.contains(&self.light.slant_deg) {
+            self.light.slant_deg = ASSUMED_DEG;
+            let words = format!(
+                "{} {ASSUMED_DEG}° is taken instead, as in a flatbed scanner.",
+                self.words
+            );
+            self.words = words;
+        }
+        self
     }
 }
 

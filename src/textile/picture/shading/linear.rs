@@ -38,7 +38,7 @@ impl Weights {
 }
 
 /// Wavenumber of bin k of n, rad/px; 0 at the Nyquist bin, where a slope has no sign.
-fn wavenumber(k: usize, n: usize) -> f64 {
+pub(super) fn wavenumber(k: usize, n: usize) -> f64 {
     let cycles = match (2 * k).cmp(&n) {
         std::cmp::Ordering::Less => k as f64,
         std::cmp::Ordering::Equal => 0.0,

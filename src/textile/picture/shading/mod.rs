@@ -2,11 +2,14 @@
 //!
 //! A matt surface z(x, y) with slopes p, q under a distant light is as bright as
 //! `R = a·max(0, 1 − p·l_x − q·l_y) / (√(1 + p² + q²)·√(1 + l²))`, where `l` = tan(slant)·(cos
-//! tilt, sin tilt) and a the albedo. Three methods find z from E = R:
+//! tilt, sin tilt) and a the albedo. Three methods find z from E = R, a fourth takes E for z:
 //!
 //! - [`Method::TsaiShah`]: Tsai & Shah (1994) as published, a local scheme, here for comparison;
 //! - [`Method::Linear`]: Pentland (1990), R to first order, one division of Fourier transforms;
-//! - [`Method::Variational`]: R as it is, least squares with a smoothness, from the linear one on.
+//! - [`Method::Variational`]: R as it is, least squares with a smoothness, from the linear one on;
+//! - [`Method::DarkIsDeep`]: light from all sides, which gaps between yarns keep out.
+//!
+//! Which of both models a picture speaks for, and under which light: [`Evidence`].
 //!
 //! # Invariants
 //! - x runs along rows, y across them; **row 0 is the lowest y** as in height maps, so pictures,
@@ -15,7 +18,9 @@
 //! - same brightness, same options, same bytes; every height is finite
 
 mod coarse;
+mod depth;
 mod error;
+mod evidence;
 mod light;
 mod linear;
 mod reflectance;
@@ -27,6 +32,7 @@ mod tsai_shah;
 mod variational;
 
 pub use error::ShadingError;
+pub(crate) use evidence::Evidence;
 pub use light::{Light, LightEstimate};
 pub use reflectance::picture_of;
 pub use shape::{Edges, Method, ShadingOptions, Shape};
@@ -54,7 +60,7 @@ impl Shape {
         if is_singular {
             return Err(ShadingError::Singular);
         }
-        if light.is_frontal() {
+        if light.is_frontal() && Method::OF_SHADING.contains(&options.method) {
             return Err(ShadingError::Frontal {
                 slant_deg: light.slant_deg,
             });
@@ -64,6 +70,7 @@ impl Shape {
             Method::TsaiShah => tsai_shah::solve(brightness, light, options, progress)?,
             Method::Linear => linear::solve(brightness, light, options),
             Method::Variational => variational::solve(brightness, light, options, progress)?,
+            Method::DarkIsDeep => depth::solve(brightness, options),
         };
         let blind = linear::blind(brightness, light, options);
         progress.step(1.0, "shape from shading")?;

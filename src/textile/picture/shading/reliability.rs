@@ -15,8 +15,11 @@ pub(super) fn words(method: Method, light: Light, blind: Blind) -> String {
             light,
             "Good as far as the surface is matt, of one colour, without steps and cast shadows.",
         ),
+        Method::DarkIsDeep => "Good where gaps are dark because light does not reach them; colour \
+                               and dirt are taken for depth, and the height has no scale."
+            .to_owned(),
     };
-    if method == Method::TsaiShah {
+    if !matches!(method, Method::Linear | Method::Variational) {
         return first;
     }
     let vectors = 100.0 * blind.share_of_vectors;

@@ -18,8 +18,8 @@ use selvedge_render::RenderError;
 use selvedge_render::contact::{Contact, FeltSurface, Tip};
 use selvedge_render::scene::{Display, LoadedScene, PlacedTextile, Scene};
 use selvedge_render::stylus::{StylusDrive, StylusSettings};
-use selvedge_textile::Library;
 use selvedge_textile::tactile::Tuning;
+use selvedge_textile::{Library, Textile};
 
 /// What a session presents.
 #[derive(Debug)]
@@ -38,6 +38,11 @@ pub(crate) struct Materials {
 }
 
 impl Materials {
+    /// The textiles that are presented.
+    pub(crate) fn textiles(&self) -> impl Iterator<Item = &Textile> {
+        self.loaded.textiles().iter().map(AsRef::as_ref)
+    }
+
     /// Loads the textiles of a design whose file is `path`: takes a while.
     pub(crate) fn gather(
         design: &Design,

@@ -42,6 +42,8 @@ pub(crate) struct Placed {
     pub(crate) gain_db: f64,
     /// Levels, targets and what is loudest.
     pub(crate) row: Row,
+    /// By band, from where to where its level may lie, dB from that, where it is not measured.
+    pub(crate) known_db: Option<[[f64; 2]; 2]>,
 }
 
 impl Placed {
@@ -194,6 +196,10 @@ fn placed(bench: &Bench, scene: &SceneView) -> Vec<Placed> {
                 index,
                 name: cloth.title(),
                 gain_db: cloth.gain_db,
+                known_db: bench
+                    .engine_scene
+                    .uncertainty(index)
+                    .map(|known| Band::ALL.map(|band| known.mean_level_db(band))),
                 row: Row {
                     level_db: felt.perceptual_level_db,
                     target_db: Band::ALL.map(|band| placed.target_db_sl(band)),

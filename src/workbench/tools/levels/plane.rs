@@ -49,6 +49,7 @@ pub(crate) fn chart(placed: &[Placed], change: Option<&Change>) -> Chart {
         Some([low?, high?])
     });
     let mut series: Vec<Series> = leads.collect();
+    series.extend(placed.iter().flat_map(whiskers));
     series.push(Series {
         ink: Ink::Grey,
         ..Series::of("target", Style::Dots, targets)
@@ -84,19 +85,54 @@ pub(crate) fn chart(placed: &[Placed], change: Option<&Change>) -> Chart {
     }
 }
 
+/// Lines from where to where a level may lie, along both axes.
+fn whiskers(one: &Placed) -> Vec<Series> {
+    let Some(known) = one.known_db else {
+        return Vec::new();
+    };
+    let level = one.row.level_db;
+    let whisker = |band: usize| {
+        let end = |off_db: f64| {
+            let mut at = level;
+            at[band] += off_db;
+            at
+        };
+        Series {
+            points: known[band].map(end).to_vec(),
+            style: Style::Line,
+            ink: Ink::Black,
+            weight: Weight::Thin,
+            ..Series::default()
+        }
+    };
+    let has_level = level.iter().all(|db| db.is_finite());
+    (0..2).filter(|_| has_level).map(whisker).collect()
+}
+
 fn columns(placed: &[Placed]) -> Columns {
     let numbers = |of: &dyn Fn(&Placed) -> f64| -> Vec<f64> { placed.iter().map(of).collect() };
     let names: Vec<String> = placed.iter().map(|one| one.name.clone()).collect();
     let target = |band: usize| move |one: &Placed| one.row.target_db[band].unwrap_or(f64::NAN);
     let headroom = |one: &Placed| one.row.peaks.headroom_db([0.0; 2]).unwrap_or(f64::NAN);
-    Columns::default()
+    let columns = Columns::default()
         .with("textile", names)
         .with("gain_db", numbers(&|one| one.gain_db))
         .with("level_40_db_sl", numbers(&|one| one.row.level_db[0]))
         .with("level_320_db_sl", numbers(&|one| one.row.level_db[1]))
         .with("target_40_db_sl", numbers(&target(0)))
         .with("target_320_db_sl", numbers(&target(1)))
-        .with("headroom_db", numbers(&headroom))
+        .with("headroom_db", numbers(&headroom));
+    if placed.iter().all(|one| one.known_db.is_none()) {
+        return columns;
+    }
+    let known = |band: usize, end: usize| {
+        move |one: &Placed| one.known_db.map_or(f64::NAN, |db| db[band][end])
+    };
+    columns
+        .with("low_40_db", numbers(&known(0, 0)))
+        .with("high_40_db", numbers(&known(0, 1)))
+        .with("low_320_db", numbers(&known(1, 0)))
+        .with("high_320_db", numbers(&known(1, 1)))
 }
 
 /// Shows the plane; dragging a dot turns its textile's gain, with Ctrl the gains of both bands.
@@ -151,8 +187,13 @@ pub(crate) fn show(
             .commands
             .push(ShowCommand::Hover(Part::Cloth(one.index)).into());
         let [low, high] = one.row.level_db.map(|db| with_unit(db, 1, "dB SL"));
+        let known = one.known_db.map_or_else(String::new, |ends| {
+            let [low, high] = ends.map(|[low, high]| format!("{low:+.1} to {high:+.1}"));
+            format!(", known to {low} and {high} dB")
+        });
         let words = format!(
-            "{}: 40 Hz {low}, 320 Hz {high} · drag it to turn its gain, with Ctrl both bands",
+            "{}: 40 Hz {low}, 320 Hz {high}{known} · drag it to turn its gain, with Ctrl both \
+             bands",
             one.name
         );
         tell(&shown.response, words);

@@ -61,8 +61,11 @@ pub(crate) struct Draft {
     pub(crate) is_light_estimated: bool,
     /// The light if it is not.
     pub light: Light,
-    /// How heights are found.
-    pub method: Method,
+    /// Whether heights are found on the mean cell, not on the picture as it is.
+    #[serde(default)]
+    pub is_cell: bool,
+    /// How heights are found; `None`: by what the picture speaks for.
+    pub method: Option<Method>,
     /// The height as typed, µm.
     pub height: String,
     /// Of what.
@@ -88,7 +91,8 @@ impl Default for Draft {
                 slant_deg: 45.0,
                 tilt_deg: 90.0,
             },
-            method: Method::default(),
+            is_cell: false,
+            method: None,
             height: String::new(),
             known: Known::Relief,
             representation: Representation::Economical,
@@ -185,7 +189,7 @@ impl Draft {
             && self.px_per_mm() == other.px_per_mm()
             && self.is_light_estimated == other.is_light_estimated
             && light(self) == light(other)
-            && self.method == other.method
+            && (self.is_cell, self.method) == (other.is_cell, other.method)
     }
 
     /// Whether the textiles are the same.
@@ -224,7 +228,7 @@ mod tests {
         };
         assert!(higher.has_same_shape(&draft) && !higher.has_same_textile(&draft));
         let linear = Draft {
-            method: Method::Linear,
+            method: Some(Method::Linear),
             ..draft.clone()
         };
         assert!(linear.has_same_tile(&draft) && !linear.has_same_shape(&draft));

@@ -7,10 +7,8 @@ use crate::kit::widgets::relief3d::Relief3d;
 use crate::tools::picture::draft::Draft;
 use crate::tools::picture::images::Image;
 use selvedge_foundation::numerics::Grid;
-use selvedge_textile::picture::brightness::Brightness;
-use selvedge_textile::picture::shading::{Light, LightEstimate, Shape};
 use selvedge_textile::picture::{
-    Autocorrelation, Directions, Found as Tiled, Maxima, Picture, SignificantMaxima,
+    Autocorrelation, Directions, Found as Tiled, Maxima, Picture, Relief, SignificantMaxima,
 };
 use selvedge_textile::surface::Direction;
 
@@ -62,19 +60,6 @@ pub(crate) struct Cloth {
     pub images: Option<[Image; 3]>,
 }
 
-/// Heights in pixels.
-#[derive(Debug)]
-pub(crate) struct Shaped {
-    /// What they were found on.
-    pub brightness: Brightness,
-    /// The heights.
-    pub shape: Shape,
-    /// The light on the picture.
-    pub light: Light,
-    /// How it was estimated, if it was.
-    pub estimate: Option<LightEstimate>,
-}
-
 /// A textile, ready to be kept.
 #[derive(Debug)]
 pub(crate) struct Made {
@@ -86,6 +71,8 @@ pub(crate) struct Made {
     pub relief_um: f64,
     /// Mean roughness of the four strokes, µm.
     pub smd_um: f64,
+    /// How far levels may be off, in a line, and what to do where that is far.
+    pub known: [Option<String>; 2],
     /// Heights along the strokes with their step: µm and mm.
     pub profiles: Vec<(Direction, Vec<f64>, f64)>,
 }
@@ -101,8 +88,8 @@ pub(crate) struct Found {
     pub correlated: Option<Arc<Correlated>>,
     /// See [`Cloth`].
     pub cloth: Option<Arc<Cloth>>,
-    /// See [`Shaped`].
-    pub shaped: Option<Arc<Shaped>>,
+    /// Heights in pixels, and what they were found on.
+    pub shaped: Option<Arc<Relief>>,
     /// See [`Made`].
     pub made: Option<Arc<Made>>,
     /// What is wrong, where.

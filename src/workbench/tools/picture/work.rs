@@ -9,18 +9,22 @@ use crate::bench::latest::Computed;
 use crate::bench::source_file::SourceFile;
 use crate::kit::widgets::relief3d::Relief3d;
 use crate::tools::picture::draft::{Draft, Part};
-use crate::tools::picture::found::{Cloth, Correlated, Found, Loaded, Made, Shaped, Step};
+use crate::tools::picture::found::{Cloth, Correlated, Found, Loaded, Made, Step};
 use crate::tools::picture::images;
 use selvedge_foundation::files::sha256_hex;
+use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_textile::picture::brightness::Brightness;
 use selvedge_textile::picture::shading::{ShadingError, ShadingOptions, Shape};
 use selvedge_textile::picture::{
     Autocorrelation, DirectionOptions, Directions, EvenLight, Found as Tiled, Lattice, Maxima,
-    Picture, SignificantMaxima, even_light,
+    Picture, Relief, SignificantMaxima, even_light,
 };
-use selvedge_textile::surface::{Direction, HeightMap};
-use selvedge_textile::{Construction, Manifest, PictureTextile, Source, TextileError, n_threads};
+use selvedge_textile::surface::{Direction, HeightMap, ProfileSet};
+use selvedge_textile::{
+    Construction, Ensemble, Lamp, Manifest, PictureTextile, Source, TextileError, Uncertainty,
+    n_threads, smd_um,
+};
 
 /// Why a run ended early.
 enum End {
@@ -115,17 +119,19 @@ fn stages(
         |found| &found.shaped,
     ) {
         Some(shaped) => shaped,
-        None => Arc::new(shaped(&inputs, tiled, progress)?),
+        None => Arc::new(shaped(&inputs, (&correlated.luminance, tiled), progress)?),
     };
     found.shaped = Some(Arc::clone(&shaped));
     progress.step(0.9, "drawing the tester over it")?;
     if inputs.missing().is_none() {
-        found.made = Some(
-            match known(prior, |of| of.has_same_textile(&inputs), |f| &f.made) {
-                Some(made) => made,
-                None => Arc::new(made(&inputs, &loaded, tiled, &shaped)?),
-            },
-        );
+        let known = known(prior, |of| of.has_same_textile(&inputs), |f| &f.made);
+        found.made = Some(if let Some(made) = known {
+            made
+        } else {
+            let relief = Relief::clone(&shaped);
+            let make = |p: &mut Progress<'_>| made(&inputs, &loaded, (tiled, relief), p);
+            Arc::new(progress.within([0.9, 1.0], make)?)
+        });
     }
     progress.step(1.0, "done")?;
     Ok(())
@@ -231,52 +237,55 @@ fn cloth(
     })
 }
 
-fn shaped(inputs: &Draft, tiled: &Tiled, progress: &mut Progress<'_>) -> Result<Shaped, End> {
+fn shaped(
+    inputs: &Draft,
+    (luminance, tiled): (&Grid<f64>, &Tiled),
+    progress: &mut Progress<'_>,
+) -> Result<Relief, End> {
     let failed = |error: ShadingError| match error {
         ShadingError::Cancelled(cancelled) => End::Cancelled(cancelled),
         error => End::Failed(Step::Light, error.to_string()),
     };
-    // Without a scale the whole lattice still has a shape; only synthesized cloth needs one.
-    let px_per_mm = inputs.px_per_mm().unwrap_or(1.0);
-    let brightness = Brightness::of(&tiled.tile, px_per_mm, n_threads());
-    let estimate = if inputs.is_light_estimated {
-        Some(brightness.estimated_light().map_err(failed)?)
+    let brightness = if inputs.is_cell {
+        // Without a scale the whole lattice still has a shape; only synthesized cloth needs one.
+        let px_per_mm = inputs.px_per_mm().unwrap_or(1.0);
+        Brightness::of(&tiled.tile, px_per_mm, n_threads())
     } else {
-        None
+        Brightness::of_picture(luminance, tiled.turn_rad())
     };
-    let light = estimate
-        .as_ref()
-        .map_or(inputs.light, |estimate| estimate.light);
+    let light = (!inputs.is_light_estimated).then_some(inputs.light);
     let options = ShadingOptions {
-        method: inputs.method,
+        method: inputs.method.unwrap_or_default(),
         ..ShadingOptions::default()
     };
-    let shape = brightness
-        .shape(light, &options, progress)
-        .map_err(failed)?;
-    Ok(Shaped {
-        brightness,
-        shape,
-        light,
-        estimate,
-    })
+    Relief::of(brightness, light, &options, progress).map_err(failed)
 }
 
-fn made(inputs: &Draft, loaded: &Loaded, tiled: &Tiled, shaped: &Shaped) -> Result<Made, End> {
-    let failed = |error: TextileError| End::Failed(Step::Felt, error.to_string());
+fn made(
+    inputs: &Draft,
+    loaded: &Loaded,
+    (tiled, mut relief): (&Tiled, Relief),
+    progress: &mut Progress<'_>,
+) -> Result<Made, End> {
+    let failed = |error: TextileError| match error {
+        TextileError::Cancelled(cancelled) => End::Cancelled(cancelled),
+        error => End::Failed(Step::Felt, error.to_string()),
+    };
     let file = inputs.source.as_ref().map(SourceFile::name);
     let px_per_mm = inputs.px_per_mm().unwrap_or_default();
-    let about = PictureTextile {
+    let mut about = PictureTextile {
         name: inputs.final_name(),
         construction: Construction::Other,
         px_per_mm,
         scale: inputs.height_scale().unwrap_or_default(),
         picture: file.map(|name| [name, loaded.sha256.clone()]),
-        light_is_estimated: shaped.estimate.is_some(),
+        size_px: Some(relief.brightness.size_px),
+        light_is_estimated: relief.estimate.is_some(),
         representation: inputs.representation,
         ..PictureTextile::default()
     };
-    let (shape, brightness) = (&shaped.shape, &shaped.brightness);
+    let advice = believe(inputs, &mut relief, &mut about, progress).map_err(failed)?;
+    let (shape, brightness) = (&relief.shape, &relief.brightness);
     let files = PictureTextile::files_of(shape, brightness, &tiled.tile, &about).map_err(failed)?;
     let text = |name: &str| {
         let file = files.iter().find(|file| file.name == name)?;
@@ -288,13 +297,14 @@ fn made(inputs: &Draft, loaded: &Loaded, tiled: &Tiled, shaped: &Shaped) -> Resu
         Source::Picture(keys) => keys.relief_um,
         _ => 0.0,
     };
-    let mut profiles = Vec::new();
+    let (mut profiles, mut strokes) = (Vec::new(), ProfileSet::default());
     for direction in Direction::ALL {
         let name = format!("{}.csv", direction.key());
         if let Some(text) = text(&name) {
             let profile = selvedge_textile::surface::Profile::read(&text, Path::new(&name))
                 .map_err(failed)?;
             profiles.push((direction, profile.heights_um().to_vec(), profile.step_mm()));
+            strokes[direction.index()] = Some(profile);
         }
     }
     let map = map_of(shape, brightness, (relief_um, px_per_mm));
@@ -302,7 +312,11 @@ fn made(inputs: &Draft, loaded: &Loaded, tiled: &Tiled, shaped: &Shaped) -> Resu
     Ok(Made {
         relief: Relief3d::of(&map),
         relief_um,
-        smd_um: manifest.measured.get("smd_um").copied().unwrap_or_default(),
+        smd_um: smd_um(&strokes),
+        known: [
+            manifest.uncertainty.as_ref().and_then(Uncertainty::words),
+            advice,
+        ],
         profiles,
         textile: Arc::new(vec![NewTextile {
             id: inputs.id(),
@@ -310,6 +324,30 @@ fn made(inputs: &Draft, loaded: &Loaded, tiled: &Tiled, shaped: &Shaped) -> Resu
             files,
         }]),
     })
+}
+
+/// Tries many reliefs: the textile has the one that is nearest to what all feel like, unless a
+/// method was chosen, and how far that may be off. What to do if that is far.
+fn believe(
+    inputs: &Draft,
+    relief: &mut Relief,
+    about: &mut PictureTextile,
+    progress: &mut Progress<'_>,
+) -> Result<Option<String>, TextileError> {
+    let lamp = if inputs.is_light_estimated {
+        Lamp::Unknown
+    } else {
+        Lamp::Known {
+            light: inputs.light,
+            within_deg: Lamp::WITHIN_DEG,
+        }
+    };
+    let ensemble = Ensemble::of(&relief.brightness, about, lamp, n_threads(), progress)?;
+    if inputs.method.is_none() {
+        ensemble.keep(relief, about, progress)?;
+    }
+    about.levels = ensemble.levels_about(&relief.shape, about)?;
+    Ok(ensemble.advice(&about.levels, about.scale))
 }
 
 /// The heights as the textile has them.

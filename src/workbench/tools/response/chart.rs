@@ -10,6 +10,7 @@ use crate::tools::response::shown::ResponseView;
 use selvedge_chart::{Axis, Band as Area, Chart, Columns, Row, Series, Style, Weight};
 use selvedge_foundation::quantity;
 use selvedge_render::array::PointSpread;
+use selvedge_textile::Uncertainty;
 use selvedge_textile::tactile::Band;
 
 /// One velocity and what it gives.
@@ -18,18 +19,33 @@ struct Asked {
     direction_deg: f64,
     speed_mm_per_s: f64,
     given: PointSpread,
+    /// By band from where to where it may lie, dB from that.
+    known_db: Option<[[f64; 2]; 2]>,
+}
+
+impl Asked {
+    fn of(
+        view: &ResponseView<'_>,
+        over: &'static str,
+        [direction_deg, speed_mm_per_s]: [f64; 2],
+        given: &PointSpread,
+    ) -> Self {
+        let known = |known: &Uncertainty| Band::ALL.map(|band| known.level_db(band, direction_deg));
+        Self {
+            over,
+            direction_deg,
+            speed_mm_per_s,
+            given: given.scaled(view.factors),
+            known_db: view.uncertainty.as_ref().map(known),
+        }
+    }
 }
 
 /// Level over speed, in the chosen direction.
 pub(crate) fn over_speed(view: &ResponseView<'_>) -> Chart {
     let speeds = speeds_mm_per_s().zip(view.curves.over_speed());
     let asked: Vec<Asked> = speeds
-        .map(|(speed_mm_per_s, given)| Asked {
-            over: "speed",
-            direction_deg: chosen_deg(view),
-            speed_mm_per_s,
-            given: given.scaled(view.factors),
-        })
+        .map(|(speed, given)| Asked::of(view, "speed", [chosen_deg(view), speed], given))
         .collect();
     let x = Axis::log("speed, mm/s").within(SPEEDS_MM_PER_S);
     chart(&asked, (x, levels(view)), &|one| one.speed_mm_per_s)
@@ -41,11 +57,9 @@ fn around(view: &ResponseView<'_>) -> Chart {
     let step_deg = 360.0 / around.len().max(1) as f64;
     let directions = around.iter().enumerate();
     let asked: Vec<Asked> = directions
-        .map(|(i, given)| Asked {
-            over: "direction",
-            direction_deg: i as f64 * step_deg,
-            speed_mm_per_s: view.probe.speed_mm_per_s,
-            given: given.scaled(view.factors),
+        .map(|(i, given)| {
+            let at = [i as f64 * step_deg, view.probe.speed_mm_per_s];
+            Asked::of(view, "direction", at, given)
         })
         .collect();
     let x = Axis::linear("direction from the warp, ° counter-clockwise").within([0.0, 360.0]);
@@ -87,7 +101,7 @@ pub(crate) fn exported(view: &ResponseView<'_>, origin: Origin) -> Exported {
 }
 
 /// Directions of the curve begin at the warp, the chosen one at the workspace's x.
-fn chosen_deg(view: &ResponseView<'_>) -> f64 {
+pub(crate) fn chosen_deg(view: &ResponseView<'_>) -> f64 {
     (view.probe.direction_deg - view.rotation_deg).rem_euclid(360.0)
 }
 
@@ -95,7 +109,10 @@ fn columns(asked: &[Asked]) -> Columns {
     let number = |of: &dyn Fn(&Asked) -> f64| -> Vec<f64> { asked.iter().map(of).collect() };
     let here = |band: usize| number(&|one| one.given.at_place_um.map_or(f64::NAN, |um| um[band]));
     let over: Vec<String> = asked.iter().map(|one| one.over.to_owned()).collect();
-    Columns::default()
+    let known = |band: usize, end: usize| {
+        number(&move |one| one.known_db.map_or(f64::NAN, |db| db[band][end]))
+    };
+    let columns = Columns::default()
         .with("over", over)
         .with("direction_from_warp_deg", number(&|one| one.direction_deg))
         .with("speed_mm_per_s", number(&|one| one.speed_mm_per_s))
@@ -106,7 +123,15 @@ fn columns(asked: &[Asked]) -> Columns {
         .with("a40_least_um", number(&|one| one.given.min_um[0]))
         .with("a320_least_um", number(&|one| one.given.min_um[1]))
         .with("a40_most_um", number(&|one| one.given.max_um[0]))
-        .with("a320_most_um", number(&|one| one.given.max_um[1]))
+        .with("a320_most_um", number(&|one| one.given.max_um[1]));
+    if asked.iter().all(|one| one.known_db.is_none()) {
+        return columns;
+    }
+    columns
+        .with("a40_low_db", known(0, 0))
+        .with("a40_high_db", known(0, 1))
+        .with("a320_low_db", known(1, 0))
+        .with("a320_high_db", known(1, 1))
 }
 
 fn chart(asked: &[Asked], (x, y): (Axis, Axis), at: &dyn Fn(&Asked) -> f64) -> Chart {
@@ -136,6 +161,19 @@ fn chart(asked: &[Asked], (x, y): (Axis, Axis), at: &dyn Fn(&Asked) -> f64) -> C
             ink,
             ..Area::default()
         });
+        let known = asked.iter().filter_map(|one| {
+            let [low, high] = one.known_db?[b];
+            let mean = quantity::level_db(one.given.rms_um[b]);
+            Some([at(one), mean + low, mean + high])
+        });
+        let known: Vec<[f64; 3]> = known.collect();
+        if !known.is_empty() {
+            bands.push(Area {
+                name: format!("{name} is known to"),
+                points: known,
+                ink,
+            });
+        }
         series.push(line(Style::Dashed, Weight::Thin, &|given| given.rms_um[b]));
         let here = line(Style::Line, Weight::Normal, &|given| {
             given.at_place_um.map_or(f64::NAN, |um| um[b])

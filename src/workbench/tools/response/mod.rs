@@ -79,6 +79,7 @@ impl Response {
             textile: cloth.title(),
             rotation_deg: cloth.rotation_deg,
             factors,
+            uncertainty: bench.engine_scene.uncertainty(textile).cloned(),
             place,
             curves: &self.curves,
             probe,

@@ -94,7 +94,7 @@ fn describe(shown: &Shown, view: &ResponseView<'_>) {
         "{} towards {}°\n{}\nDrag to choose a speed, with Shift finely",
         quantity::with_unit(speed_mm_per_s, decimals, "mm/s"),
         quantity::fixed(view.probe.direction_deg, 0),
-        words_of(view, spread)
+        words_of(view, spread, chart::chosen_deg(view))
     );
     shown.response.clone().on_hover_text_at_pointer(words);
 }

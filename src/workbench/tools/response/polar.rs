@@ -90,7 +90,7 @@ fn describe(response: Response, plot: &Plot, view: &ResponseView<'_>) {
          direction, with Shift finely",
         quantity::fixed(along, 0),
         quantity::with_unit(view.probe.speed_mm_per_s, 0, "mm/s"),
-        words_of(view, spread)
+        words_of(view, spread, step_deg * place as f64)
     );
     response.on_hover_text_at_pointer(words);
 }
@@ -209,6 +209,17 @@ impl Plot {
             row
         };
         fill_between(painter, &closed(least), &closed(most), ink);
+        if let Some(known) = &view.uncertainty {
+            let end = |end: usize| -> Vec<Pos2> {
+                let off = |k: usize| known.level_db(band, step_deg * k as f64)[end];
+                let row = levels.iter().enumerate();
+                row.map(|(k, [_, mean, ..])| {
+                    self.at(self.rotation_deg + step_deg * k as f64, mean + off(k))
+                })
+                .collect()
+            };
+            fill_between(painter, &closed(end(0)), &closed(end(1)), ink);
+        }
         let thin = Stroke::new(1.0, ink.gamma_multiply(MEAN));
         painter.add(Shape::closed_line(mean, thin));
         if view.place.is_some() {

@@ -9,6 +9,7 @@ use crate::tools::response::curves::Curves;
 use selvedge_foundation::geometry::Velocity;
 use selvedge_foundation::quantity;
 use selvedge_render::array::PointSpread;
+use selvedge_textile::Uncertainty;
 use selvedge_textile::tactile::Band;
 
 /// How opaque the range over all points is drawn.
@@ -25,6 +26,8 @@ pub(crate) struct ResponseView<'a> {
     pub rotation_deg: f64,
     /// The amplitude factors of its gains, by band.
     pub factors: [f64; 2],
+    /// How far its levels may be off, where that is said.
+    pub uncertainty: Option<Uncertainty>,
     /// The chosen contactor and the points that it reads, one for each direction; `None` while it
     /// is not on the textile.
     pub place: Option<(usize, [usize; 4])>,
@@ -50,8 +53,12 @@ pub(crate) fn levels_db(spread: &PointSpread, factors: [f64; 2], band: Band) -> 
     ]
 }
 
-/// What a spread says, in words.
-pub(crate) fn words_of(view: &ResponseView<'_>, spread: &PointSpread) -> String {
+/// What a spread says, in words, and how far it may be off in a direction from the warp.
+pub(crate) fn words_of(
+    view: &ResponseView<'_>,
+    spread: &PointSpread,
+    from_warp_deg: f64,
+) -> String {
     let band_words = Band::ALL.map(|band| {
         let levels = levels_db(spread, view.factors, band);
         let [place, mean, least, most] = levels.map(|db| quantity::fixed(db, 1));
@@ -72,9 +79,19 @@ pub(crate) fn words_of(view: &ResponseView<'_>, spread: &PointSpread) -> String 
              reverse"
         )
     });
+    let band = view.uncertainty.as_ref().map_or_else(String::new, |known| {
+        let ends = Band::ALL.map(|band| {
+            let [low, high] = known.level_db(band, from_warp_deg);
+            format!("{low:+.1} to {high:+.1}")
+        });
+        format!(
+            "\nHeights from a picture: all may lie {} dB from this",
+            ends.join(" / ")
+        )
+    });
     format!(
         "{}\nLevel re 1 µm peak, after gains, before output limits; the mean is the root mean \
-         square over all pairs of points{points}",
+         square over all pairs of points{points}{band}",
         band_words.join("\n")
     )
 }

@@ -12,6 +12,7 @@ use crate::bench::view::Source;
 use selvedge_device::{ArrayProfile, Calibration, Coder, Limit, LimiterState, LinkScale};
 use selvedge_foundation::numerics::to_single;
 use selvedge_render::array::{ContactTrace, Touch};
+use selvedge_textile::tactile::Band;
 
 /// One contactor at one tick, explained.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +27,9 @@ pub(crate) struct Explanation {
     pub trace: ContactTrace,
     /// What the textile is called in the scene: label and name.
     pub textile: Option<String>,
+    /// By band, from where to where it may lie, dB from what is given, where a textile's levels are
+    /// not measured.
+    pub(crate) known_db: Option<[[f64; 2]; 2]>,
     /// What the finger gets of both bands.
     pub(crate) on_finger: [OnFinger; 2],
     /// What the whole display feels like, by a model.
@@ -102,6 +106,12 @@ impl Explanation {
             let name = item.map_or(&cloth.id, |item| &item.name);
             format!("{} {name}", cloth.label)
         });
+        let known = trace.touch.as_ref().and_then(|touch| {
+            let known = bench.engine_scene.uncertainty(touch.textile)?;
+            let [u, w] = touch.velocity_mm_per_s;
+            let direction_deg = w.atan2(u).to_degrees();
+            Some(Band::ALL.map(|band| known.level_db(band, direction_deg)))
+        });
         let display = bench.document.scene().displays.get(display)?;
         let cell = display.geometry.grid().map(|(_, n_columns)| {
             let n_columns = n_columns.max(1);
@@ -135,6 +145,7 @@ impl Explanation {
             },
             trace,
             textile,
+            known_db: known,
             on_finger,
             perceptual_level: live.perceptual_level,
             is_stylus,

@@ -69,6 +69,7 @@ fn why(place: [f64; 2], velocity: [f64; 2]) -> Explanation {
         cell: Some((0, 0)),
         tick: 7,
         trace,
+        known_db: None,
         textile: Some("1 Sine".to_owned()),
         on_finger: [OnFinger::ShownOnly; 2],
         perceptual_level: PerceptualLevel::default(),

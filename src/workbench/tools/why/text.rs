@@ -70,6 +70,13 @@ pub(crate) fn lines(why: &Explanation) -> Vec<(String, String)> {
     lines.push(("= gain".to_owned(), both(totals, 2, "dB")));
     let amplitudes = both(why.trace.amplitudes_um, 3, "µm");
     lines.push(("Amplitudes".to_owned(), amplitudes));
+    lines.extend(why.known_db.map(|ends| {
+        let [low, high] = ends.map(|[low, high]| format!("{low:+.1} to {high:+.1}"));
+        (
+            "Known to".to_owned(),
+            format!("{low} / {high} dB of that: heights from a picture"),
+        )
+    }));
     lines.extend(felt(why));
     lines.push((LIMITS.to_owned(), limits(why)));
     lines.extend(calibration(why));

@@ -15,14 +15,14 @@ use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{RowShape, slider_row_as};
 use crate::kit::widgets::text::{button, paragraph, quiet, toggle, toggles};
 use crate::tools::picture::draft::{Draft, Part, ScaleUnit};
-use crate::tools::picture::found::{Cloth, Found, Shaped, Step};
+use crate::tools::picture::found::{Cloth, Found, Step};
 use crate::tools::picture::state::Picture;
 use crate::tools::picture::view::hemisphere;
 #[cfg(feature = "friction")]
 use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity::{self, with_unit};
-use selvedge_textile::picture::Directions;
 use selvedge_textile::picture::shading::Method;
+use selvedge_textile::picture::{Directions, Relief};
 
 /// Room for the name of a field, points.
 const NAME: f32 = 52.0;
@@ -262,7 +262,7 @@ fn vector_words(name: &str, [x, y]: [f64; 2], px_per_mm: Option<f64>) -> String 
     )
 }
 
-fn show_light(ui: &mut Ui, draft: &mut Draft, shaped: Option<&Shaped>) {
+fn show_light(ui: &mut Ui, draft: &mut Draft, shaped: Option<&Relief>) {
     ui.add_space(STEP);
     let state = if draft.is_light_estimated {
         "estimated"
@@ -314,10 +314,35 @@ fn show_light(ui: &mut Ui, draft: &mut Draft, shaped: Option<&Shaped>) {
 }
 
 fn show_method(ui: &mut Ui, draft: &mut Draft) {
+    let choices = [
+        (
+            false,
+            "picture",
+            "Heights of the picture as it is, yarn by yarn",
+        ),
+        (
+            true,
+            "mean cell",
+            "Heights of the cell that repeats: what varies from yarn to yarn is lost",
+        ),
+    ];
+    row_of(ui, NAME, ("of the", ""), |ui, _| {
+        toggles(ui, &mut draft.is_cell, &choices);
+    });
     row_of(ui, NAME, ("method", ""), |ui, _| {
-        for method in Method::ALL.into_iter().rev() {
-            let tip = format!("Shape from shading: {}", method.label());
-            if toggle(ui, method.label(), draft.method == method, &tip) {
+        let tip = "Of many reliefs, by shading and by dark is deep, the one that is nearest to what \
+                   feel like; until the height is typed, shading";
+        let mut choices = vec![(None, "by evidence", tip.to_owned())];
+        choices.extend(Method::ALL.map(|method| {
+            let tip = match method {
+                Method::TsaiShah | Method::Linear => "The historical reference",
+                Method::Variational => "Shape from shading, in full",
+                Method::DarkIsDeep => "Height follows brightness",
+            };
+            (Some(method), method.label(), tip.to_owned())
+        }));
+        for (method, label, tip) in choices {
+            if toggle(ui, label, draft.method == method, &tip) {
                 draft.method = method;
             }
         }
@@ -325,7 +350,7 @@ fn show_method(ui: &mut Ui, draft: &mut Draft) {
 }
 
 /// How well the heights fit the brightness, and how far the method can be trusted.
-fn show_trust(ui: &mut Ui, shaped: &Shaped) {
+fn show_trust(ui: &mut Ui, shaped: &Relief) {
     if let Some(residual) = shaped.shape.residuals.last() {
         let n = shaped.shape.n_iterations();
         let residual = quantity::fixed(*residual, 4);

@@ -16,6 +16,7 @@ use selvedge_textile::surface::Representation;
 pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) {
     ui.spacing_mut().item_spacing.y = STEP;
     let made = picture.found().and_then(|found| found.made.clone());
+    let known = made.as_ref().map(|made| made.known.clone());
     let figures = made.map_or_else(String::new, |made| {
         let relief = with_unit(made.relief_um, 0, "µm");
         format!("relief {relief}, SMD {}", with_unit(made.smd_um, 2, "µm"))
@@ -63,6 +64,9 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) 
             picture.keep(false, commands);
         }
     });
+    for line in known.into_iter().flatten().flatten() {
+        note(ui, &line, Tone::Quiet);
+    }
     show_outcome(ui, picture, refusal);
 }
 

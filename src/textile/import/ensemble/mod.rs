@@ -1,0 +1,412 @@
+//! How sure a relief from a picture is: many reliefs that explain the picture, weighted by how well
+//! they do, and what is felt of each.
+//!
+//! Two models compete, shading and dark is deep, and where the light is not known, lights. They are
+//! drawn by a fixed rule, so that the same picture gives the same bytes on any number of threads.
+//! Of a member only its levels are kept, not its relief: what is in memory at once is one relief a
+//! thread.
+
+mod design;
+mod words;
+
+pub use design::Lamp;
+
+use super::picture::PictureTextile;
+use crate::error::TextileError;
+use crate::picture::Relief;
+use crate::picture::brightness::Brightness;
+use crate::picture::shading::{Evidence, Method, Shape};
+use crate::tactile::Band;
+use design::{Member, N_DEEP, N_SHADED, drawn};
+use selvedge_foundation::numerics::{bisected, extent, in_pieces};
+use selvedge_foundation::progress::Progress;
+
+/// Shares of the belief below either end of a band.
+const ENDS: [f64; 2] = [0.16, 0.84];
+/// How far a member is off by itself, dB, by band: a standard deviation.
+const OWN_ERROR_DB: [f64; 2] = [2.0, 1.5];
+/// Shading under slopes too steep for it and dark is deep err to opposite sides, so that the truth
+/// is rather between them: members' distances from their mean count by this share. With
+/// [`OWN_ERROR_DB`] so that bands hold about as many of the known cloths of the study of routes as
+/// they say.
+const TRUST: f64 = 0.75;
+/// Shares of the picture that are left unexplained count against a light from here on.
+const NOISE_SHARE: f64 = 0.02;
+/// How many independent readings a picture's residual counts for: it falls with smoothness too.
+const N_READINGS: f64 = 1.0;
+/// Rounds that bring the kept relief's levels to the medians, and how much one may change, dB.
+const N_ROUNDS: usize = 3;
+const MOST_DB: f64 = 12.0;
+
+/// What was tried on a picture, and which is kept.
+#[derive(Debug, Clone)]
+pub struct Ensemble {
+    /// All whose levels could be had.
+    members: Vec<Member>,
+    /// The one whose levels are nearest to the medians.
+    kept: usize,
+    lamp: Lamp,
+}
+
+/// Levels of warp and weft by band, dB re 1 µm.
+type AxisLevels = [[f64; 2]; 2];
+
+/// What a member came to: levels, and the share of the picture that it does not explain.
+type Tried = Option<Result<(AxisLevels, f64), TextileError>>;
+
+impl Ensemble {
+    /// Tries all members on a brightness, heights scaled as the textile's are to be.
+    ///
+    /// # Errors
+    /// Heights without a scale, a picture without relief: the first member's error, if none could
+    /// be scaled. Cancelled.
+    pub fn of(
+        brightness: &Brightness,
+        about: &PictureTextile,
+        lamp: Lamp,
+        n_threads: usize,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, TextileError> {
+        let mut members = drawn(lamp);
+        let mut tried: Vec<Tried> = members.iter().map(|_| None).collect();
+        let n = members.len();
+        for first in (0..n).step_by(n_threads.max(1)) {
+            progress.step(first as f64 / n as f64, "trying reliefs")?;
+            let end = (first + n_threads.max(1)).min(n);
+            let work = |(): &mut (), i: usize, one: &mut [Tried]| {
+                one[0] = Some(members[first + i].tried(brightness, about));
+            };
+            in_pieces(&mut tried[first..end], 1, n_threads, || (), work);
+        }
+        weigh(&mut members, &tried, brightness);
+        let (mut felt, mut failed) = (Vec::new(), None);
+        for (member, tried) in members.into_iter().zip(tried) {
+            match tried {
+                Some(Ok((levels_db, _))) => felt.push(Member {
+                    levels_db,
+                    ..member
+                }),
+                Some(Err(error)) => failed = failed.or(Some(error)),
+                None => {}
+            }
+        }
+        let sum: f64 = felt.iter().map(|member| member.weight).sum();
+        match failed {
+            Some(error) if felt.is_empty() => return Err(error),
+            _ => felt.iter_mut().for_each(|member| member.weight /= sum),
+        }
+        let kept = 0;
+        let mut ensemble = Self {
+            members: felt,
+            kept,
+            lamp,
+        };
+        ensemble.kept = ensemble.nearest_to_median();
+        Ok(ensemble)
+    }
+
+    /// The kept relief: the member whose levels are nearest to the medians, its waves weighed until
+    /// its own levels are. One relief, not the mean of many under many lights, which would be
+    /// smoother than any.
+    ///
+    /// # Errors
+    /// Cancelled.
+    pub fn shape(
+        &self,
+        brightness: &Brightness,
+        about: &PictureTextile,
+        progress: &mut Progress<'_>,
+    ) -> Result<Shape, TextileError> {
+        let mut shape = self.members[self.kept].shape(brightness, progress)?;
+        let medians = self.medians_db();
+        let n = [shape.height_px.width(), shape.height_px.height()];
+        for _ in 0..N_ROUNDS {
+            let felt_db = about.levels_db(&shape)?;
+            let gains_db = [0, 1].map(|axis| {
+                let off = |band: usize| medians[axis][band] - felt_db[axis][band];
+                [0, 1].map(|band| off(band).clamp(-MOST_DB, MOST_DB))
+            });
+            shape = shape.weighed(about.step_mm(n), gains_db);
+        }
+        Ok(shape)
+    }
+
+    /// Puts the kept shape, and what it was found under, in the place of a relief's own.
+    ///
+    /// # Errors
+    /// Cancelled.
+    pub fn keep(
+        &self,
+        relief: &mut Relief,
+        about: &PictureTextile,
+        progress: &mut Progress<'_>,
+    ) -> Result<(), TextileError> {
+        relief.shape = self.shape(&relief.brightness, about, progress)?;
+        relief.light = self.members[self.kept].light;
+        if let Some(estimate) = &mut relief.estimate {
+            estimate.light = relief.light;
+            let percent = 100.0 * self.belief_in_shading();
+            estimate.words = format!(
+                "The light is not known: of {} reliefs, {percent:.0} % of the belief in shading, \
+                 this one is nearest to what all feel like.",
+                self.members.len()
+            );
+        }
+        Ok(())
+    }
+
+    /// What a manifest says of a textile of a shape: Hz, degrees from the warp, and from where to
+    /// where the amplitude may lie, dB from what is felt.
+    ///
+    /// # Errors
+    /// A shape that has no height.
+    pub fn levels_about(
+        &self,
+        shape: &Shape,
+        about: &PictureTextile,
+    ) -> Result<Vec<[f64; 4]>, TextileError> {
+        Ok(self.levels(about.levels_db(shape)?))
+    }
+
+    /// The same of a textile whose warp and weft have these levels.
+    pub fn levels(&self, felt_db: AxisLevels) -> Vec<[f64; 4]> {
+        let tenths = |db: f64| (10.0 * db).round() / 10.0;
+        let mut all = Vec::new();
+        for band in Band::ALL {
+            for (axis, deg) in [0.0, 90.0].into_iter().enumerate() {
+                let [low, high] = ENDS.map(|share| {
+                    let db = self.quantile_db(axis, band.index(), share);
+                    tenths(db - felt_db[axis][band.index()])
+                });
+                all.push([band.carrier_hz(), deg, low, high]);
+            }
+        }
+        all
+    }
+
+    /// The level of an axis (warp, weft) and band that a share of the belief lies below, dB.
+    fn quantile_db(&self, axis: usize, band: usize, share: f64) -> f64 {
+        let level = |member: &Member| member.levels_db[axis][band];
+        let mean: f64 = self.members.iter().map(|one| one.weight * level(one)).sum();
+        // Each member is spread as a logistic distribution of its own error.
+        let width = OWN_ERROR_DB[band] * 3.0_f64.sqrt() / std::f64::consts::PI;
+        let below = |db: f64| -> f64 {
+            let of = |member: &Member| {
+                let middle = mean + TRUST * (level(member) - mean);
+                member.weight / (1.0 + ((middle - db) / width).exp())
+            };
+            self.members.iter().map(of).sum()
+        };
+        let [low, high] = extent(self.members.iter().map(level));
+        let far = 10.0 * OWN_ERROR_DB[band];
+        bisected([low - far, high + far], 40, |db| below(db) < share)
+    }
+
+    fn medians_db(&self) -> AxisLevels {
+        [0, 1].map(|axis| [0, 1].map(|band| self.quantile_db(axis, band, 0.5)))
+    }
+
+    fn nearest_to_median(&self) -> usize {
+        let medians = self.medians_db();
+        let off = |member: &Member| -> f64 {
+            let levels = member.levels_db.iter().flatten();
+            let pairs = levels.zip(medians.iter().flatten());
+            pairs.map(|(db, median)| (db - median).powi(2)).sum()
+        };
+        let all = self.members.iter().enumerate();
+        let nearest = all.min_by(|a, b| off(a.1).total_cmp(&off(b.1)));
+        nearest.map_or(0, |(i, _)| i)
+    }
+
+    /// The belief in shading; the rest is in dark is deep.
+    fn belief_in_shading(&self) -> f64 {
+        let shaded = self
+            .members
+            .iter()
+            .filter(|one| one.method != Method::DarkIsDeep);
+        shaded.map(|member| member.weight).sum()
+    }
+}
+
+/// Gives every member its weight: half of the belief to each model before the picture is looked
+/// at, then by its waves over direction and, among lights, by what the drawn picture leaves.
+fn weigh(members: &mut [Member], tried: &[Tried], brightness: &Brightness) {
+    let evidence = Evidence::of(&brightness.values);
+    let unexplained = |i: usize| match &tried[i] {
+        Some(Ok((_, share))) => Some(share + NOISE_SHARE),
+        _ => None,
+    };
+    let shares = (0..N_SHADED).filter_map(unexplained);
+    let best = shares.fold(f64::INFINITY, f64::min);
+    let log_belief = |(i, member): (usize, &Member)| {
+        if member.method == Method::DarkIsDeep {
+            return -(N_DEEP as f64).ln();
+        }
+        let tilt_deg = brightness.light(member.light).tilt_deg;
+        let left = unexplained(i).map_or(f64::INFINITY, |share| share / best);
+        evidence.log_odds(tilt_deg) - 0.5 * N_READINGS * left.ln() - (N_SHADED as f64).ln()
+    };
+    let logs: Vec<f64> = members.iter().enumerate().map(log_belief).collect();
+    let [_, most] = extent(logs.iter().copied());
+    for (member, log) in members.iter_mut().zip(logs) {
+        member.weight = (log - most).exp();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::height_scale::HeightScale;
+    use super::*;
+    use crate::picture::shading::{Light, picture_of};
+    use selvedge_foundation::numerics::{Grid, Random};
+    use selvedge_foundation::progress::CancelFlag;
+
+    const LIGHT: Light = Light {
+        slant_deg: 45.0,
+        tilt_deg: 30.0,
+    };
+
+    /// Bumps by chance that repeat, px, 20 px/mm.
+    fn relief() -> Grid<f64> {
+        let (n, mut random) = (160_usize, Random::new(5));
+        let mut heights = Grid::filled(n, n, 0.0);
+        for _ in 0..600 {
+            let (x, y) = (random.index(n), random.index(n));
+            let (up, wide) = (random.uniform_in(-0.6, 0.6), random.uniform_in(2.0, 6.0));
+            for row in 0..n {
+                for (column, z) in heights.row_mut(row).iter_mut().enumerate() {
+                    let [dx, dy] =
+                        [column.abs_diff(x), row.abs_diff(y)].map(|d| d.min(n - d) as f64);
+                    *z += up * (-(dx * dx + dy * dy) / (wide * wide)).exp();
+                }
+            }
+        }
+        heights
+    }
+
+    fn brightness(values: &Grid<f64>) -> Brightness {
+        Brightness::of_picture(&values.turned_over(), 0.0)
+    }
+
+    fn lit() -> Brightness {
+        brightness(&picture_of(&relief(), LIGHT).map(|e| 0.8 * e))
+    }
+
+    fn about() -> PictureTextile {
+        PictureTextile {
+            name: "Bumps".to_owned(),
+            px_per_mm: 20.0,
+            scale: HeightScale::SmdUm(5.0),
+            ..PictureTextile::default()
+        }
+    }
+
+    fn known() -> Lamp {
+        Lamp::Known {
+            light: LIGHT,
+            within_deg: 5.0,
+        }
+    }
+
+    fn tried(brightness: &Brightness, lamp: Lamp, n_threads: usize) -> Ensemble {
+        Progress::unheard(|progress| Ensemble::of(brightness, &about(), lamp, n_threads, progress))
+            .unwrap()
+    }
+
+    #[test]
+    fn members_are_the_same_on_any_number_of_threads_and_their_weights_sum_to_one() {
+        let one = tried(&lit(), known(), 1);
+        let three = tried(&lit(), known(), 3);
+        assert!(one.members.len() >= 16, "{}", one.members.len());
+        assert_eq!(one.members, three.members);
+        assert_eq!(one.kept, three.kept);
+        let sum: f64 = one.members.iter().map(|member| member.weight).sum();
+        assert!((sum - 1.0).abs() < 1e-12, "{sum}");
+    }
+
+    #[test]
+    fn a_picture_speaks_for_the_model_that_it_was_drawn_by() {
+        let by_light = tried(&lit(), known(), 2).belief_in_shading();
+        let heights = relief();
+        let [low, high] = extent(heights.values().iter().copied());
+        let deep = brightness(&heights.map(|z| 0.2 + 0.7 * (z - low) / (high - low)));
+        let by_depth = tried(&deep, known(), 2).belief_in_shading();
+        assert!(
+            by_light > 0.8 && by_depth < 0.3,
+            "{by_light} and {by_depth}"
+        );
+    }
+
+    #[test]
+    fn the_kept_relief_has_the_median_levels_and_the_band_is_about_them() {
+        let brightness = lit();
+        for lamp in [known(), Lamp::Unknown] {
+            let ensemble = tried(&brightness, lamp, 2);
+            let kept = |p: &mut Progress<'_>| ensemble.shape(&brightness, &about(), p);
+            let shape = Progress::unheard(kept).unwrap();
+            let levels = ensemble.levels_about(&shape, &about()).unwrap();
+            assert_eq!(levels.len(), 4, "two bands along two axes");
+            for [hz, deg, low, high] in levels {
+                // The SMD that was given wins over the mean of the levels.
+                assert!(
+                    low < 0.7 && high > -0.7 && low < high,
+                    "{hz} Hz, {deg}°: {low} to {high}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_band_widens_where_the_light_is_not_known_and_shares_rise() {
+        let [sure, open] = [known(), Lamp::Unknown].map(|lamp| tried(&lit(), lamp, 2));
+        let spread = |ensemble: &Ensemble| -> f64 {
+            let both = (0..4).map(|i| [i / 2, i % 2]);
+            both.map(|[axis, band]| {
+                ensemble.quantile_db(axis, band, 0.95) - ensemble.quantile_db(axis, band, 0.05)
+            })
+            .sum()
+        };
+        assert!(
+            spread(&open) > 1.2 * spread(&sure),
+            "{} {}",
+            spread(&open),
+            spread(&sure)
+        );
+        let [low, middle, high] = [0.16, 0.5, 0.84].map(|share| open.quantile_db(0, 0, share));
+        assert!(low < middle && middle < high, "{low} {middle} {high}");
+    }
+
+    #[test]
+    fn lights_are_drawn_where_they_may_be_and_from_all_sides_if_that_is_not_known() {
+        let shaded = |lamp: Lamp| {
+            drawn(lamp)
+                .into_iter()
+                .filter(|one| one.method == Method::Variational)
+        };
+        for Member { light, .. } in shaded(known()) {
+            let off = [light.slant_deg - 45.0, light.tilt_deg - 30.0];
+            assert!(off.into_iter().all(|deg| deg.abs() <= 5.0), "{light:?}");
+        }
+        for quarter in [-180.0, -90.0, 0.0, 90.0] {
+            let there = |one: &Member| (quarter..quarter + 90.0).contains(&one.light.tilt_deg);
+            let n = shaded(Lamp::Unknown).filter(there).count();
+            assert!((3..=5).contains(&n), "{n} of {N_SHADED} from {quarter}°");
+        }
+    }
+
+    #[test]
+    fn a_raised_flag_ends_it_and_a_picture_of_one_colour_has_no_relief() {
+        let flag = CancelFlag::new();
+        flag.cancel();
+        let mut nobody = |_: f64, _: &str| {};
+        let mut progress = Progress::new(&mut nobody, flag);
+        let stopped = Ensemble::of(&lit(), &about(), known(), 2, &mut progress);
+        assert!(
+            matches!(stopped, Err(TextileError::Cancelled(_))),
+            "{stopped:?}"
+        );
+        let flat = brightness(&Grid::filled(160, 160, 0.5));
+        let none = Progress::unheard(|p| Ensemble::of(&flat, &about(), known(), 2, p)).unwrap_err();
+        assert!(none.to_string().contains("flat"), "{none}");
+    }
+}
