@@ -82,9 +82,10 @@ fn make(args: &ReportArgs, studies: &[Study], out: &Path) -> Result<(), CliError
     let mut meter = Meter::new("reporting");
     let mut show = |standing: &Standing<'_>| meter.show(standing.share, &words(standing));
     let mut again = |names: &[&str]| further_process(args, names, &cancel);
-    let again: Option<&mut Again<'_>> = match args.one_process {
-        true => None,
-        false => Some(&mut again),
+    let again: Option<&mut Again<'_>> = if args.one_process {
+        None
+    } else {
+        Some(&mut again)
     };
     let made = selvedge_studies::run(studies, &options, &cancel, again, &mut show)?;
     drop(meter);

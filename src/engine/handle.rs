@@ -188,13 +188,8 @@ impl Engine {
                 how: (amplitude_um, duration_ms),
             },
             Command::SetSource(source) => CoreCommand::Source(playable(source)?).into(),
-            Command::Connect(target) => self.connect(0, target),
-            Command::ConnectSecond(target) => {
-                if self.driven.n_second != self.driven.n_felt {
-                    return Err(EngineError::NoSecondDisplay);
-                }
-                self.connect(1, target)
-            }
+            Command::Connect(target) => self.connect(0, target)?,
+            Command::ConnectSecond(target) => self.connect(1, target)?,
             Command::Disconnect => self.disconnect(0),
             Command::DisconnectSecond => self.disconnect(1),
             Command::Arm => ReadyCommand::Arm {
@@ -344,9 +339,12 @@ impl Engine {
         Ok(())
     }
 
-    fn connect(&mut self, display: usize, target: Target) -> ReadyCommand {
+    fn connect(&mut self, display: usize, target: Target) -> Result<ReadyCommand, EngineError> {
+        if display > 0 && self.driven.n_second != self.driven.n_felt {
+            return Err(EngineError::NoSecondDisplay);
+        }
         let when = (&self.switch, self.body.told());
-        self.device.open((display, target), &self.driven, when)
+        Ok(self.device.open((display, target), &self.driven, when))
     }
 
     /// Another scene, with a channel for snapshots of its size.

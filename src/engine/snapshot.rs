@@ -34,8 +34,6 @@ pub struct Snapshot {
     /// The pose that its amplitudes below were rendered at: at rest while everything is off, and in
     /// a scene that was just opened.
     pub rendered: Pose,
-    /// Times that another display moved by itself.
-    pub(super) others_moved: u64,
     /// The angle that the display was turned to by hand, degrees counter-clockwise, added to the
     /// scene's; a replay has angles of its own instead.
     pub turn_deg: f64,
@@ -50,8 +48,6 @@ pub struct Snapshot {
     pub sequence_step: Option<u16>,
     /// What the stylus does that is felt in place of the array; `None`: the array is felt.
     pub stylus: Option<StylusState>,
-    /// Whether a cloth that hangs is felt in place of the scene.
-    pub is_cloth: bool,
     /// How amplitudes are made.
     pub rendering: RenderingView,
     /// The pointer and its velocity.
@@ -77,6 +73,8 @@ pub struct Snapshot {
 pub struct RenderingView {
     /// The rendering method chosen; never `auto`.
     pub method: Method,
+    /// Whether a cloth that hangs is felt in place of what it makes.
+    pub is_cloth: bool,
     /// How far amplitudes may be from the reference, known before the first tick.
     pub bound: ErrorBound,
     /// What the renderer evaluated and what it left out, since the scene was set.
@@ -94,6 +92,7 @@ impl RenderingView {
     pub(super) fn of(renderer: &ArrayRenderer) -> Self {
         Self {
             method: renderer.method(),
+            is_cloth: false,
             bound: renderer.bound(),
             counters: *renderer.counters(),
             tuning: *renderer.tuning(),
@@ -180,6 +179,8 @@ pub struct ClockView {
 /// What was lost or refused since the engine started.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct EngineCounters {
+    /// Times that another display moved by itself.
+    pub(super) others_moved: u64,
     /// Notices that the full ring had no room for.
     pub(crate) notices_lost: u64,
     /// Tunings, gains and angles that made no sense and were ignored.

@@ -199,9 +199,10 @@ impl<'a> Bench<'a> {
 
     /// Repeats of a measurement: fewer in each of several processes.
     fn n_repeats(&self) -> usize {
-        match self.is_again {
-            true => self.effort.pick(2, 5),
-            false => self.effort.pick(5, 15),
+        if self.is_again {
+            self.effort.pick(2, 5)
+        } else {
+            self.effort.pick(5, 15)
         }
     }
 

@@ -271,12 +271,11 @@ fn smoothed(picture: &Grid<f32>) -> Grid<f32> {
 fn pictures(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
     // Nothing is seen where errors are not asked for.
     let n_cloths = bench.effort.pick(4, 40);
-    let (taken, all) = match bench.wants_errors() {
-        true => (
-            Taken::held_back(Split::Cloths, n_cloths, n_threads()),
-            Spoilt::all(bench),
-        ),
-        false => (Taken::held_back(Split::Cloths, 1, 1), Vec::new()),
+    let (taken, all) = if bench.wants_errors() {
+        let taken = Taken::held_back(Split::Cloths, n_cloths, n_threads());
+        (taken, Spoilt::all(bench))
+    } else {
+        (Taken::held_back(Split::Cloths, 1, 1), Vec::new())
     };
     let predictor = Predictor::shipped()?;
     let mut rows = Vec::new();

@@ -8,21 +8,26 @@ use super::{Effort, Findings, ReportError, Row, Study, chart, write};
 
 /// Where and how a report was made.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct About<'a> {
+struct About<'a> {
     /// The machine and the program.
-    pub(super) machine: &'a Machine,
+    machine: &'a Machine,
     /// What was asked for.
-    pub(super) options: &'a Options,
+    options: &'a Options,
     /// When.
-    pub(super) date: &'a str,
+    date: &'a str,
 }
 
-/// Writes the index.
+/// Writes the index of a report that was made here, as was asked for, then.
 pub(super) fn write(
     studies: &[Study],
     report: &Report,
-    about: &About<'_>,
+    (machine, options, date): (&Machine, &Options, &str),
 ) -> Result<(), ReportError> {
+    let about = &About {
+        machine,
+        options,
+        date,
+    };
     write::text(
         "index.md",
         &about.options.out,

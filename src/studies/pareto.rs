@@ -62,6 +62,7 @@ pub(super) fn error_and_cost(row: &Row) -> Option<(f64, f64)> {
 
 #[cfg(test)]
 pub(crate) mod tests {
+    use super::Front::{Beaten, On, Open};
     use super::*;
     use crate::Timing;
 
@@ -86,7 +87,6 @@ pub(crate) mod tests {
             row("b", f64::NAN, 1.0),
             Row::default(),
         ];
-        use Front::{Beaten, On};
         let expected = [On, Beaten, On, Beaten, On].map(Some);
         assert_eq!(pareto(&rows)[..5], expected);
         assert_eq!(pareto(&rows)[5..], [None, None]);
@@ -95,7 +95,7 @@ pub(crate) mod tests {
     #[test]
     fn equals_are_both_on_the_front() {
         let rows = [row("a", 0.1, 1.0), row("a", 0.1, 1.0)];
-        assert_eq!(pareto(&rows), [Some(Front::On); 2]);
+        assert_eq!(pareto(&rows), [Some(On); 2]);
     }
 
     #[test]
@@ -105,7 +105,6 @@ pub(crate) mod tests {
         let mut lying = row("a", 0.06, 0.2);
         lying.promised = Some(0.05);
         let rows = [wrong, lying, row("a", 0.07, 0.3)];
-        use Front::{Beaten, On};
         assert_eq!(pareto(&rows), [Beaten, Beaten, On].map(Some));
     }
 
@@ -120,7 +119,6 @@ pub(crate) mod tests {
             unsteady(0.1, [1.5, 2.5, 3.5]),
             unsteady(0.3, [9.0, 9.0, 9.0]),
         ];
-        use Front::{Beaten, On, Open};
         assert_eq!(pareto(&rows), [Open, On, Beaten].map(Some));
     }
 }

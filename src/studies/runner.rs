@@ -76,6 +76,27 @@ pub struct Report {
 }
 
 impl Report {
+    fn begun(studies: &[Study]) -> Self {
+        let stopped = |study: &Study| (study.name, Outcome::Stopped);
+        Self {
+            outcomes: studies.iter().map(stopped).collect(),
+            is_cancelled: false,
+            trouble: None,
+            since: None,
+        }
+    }
+
+    /// Writes the tables and plots of these studies, as far as they are done.
+    fn write_findings(&self, studies: &[Study], options: &Options) -> Result<(), ReportError> {
+        for study in studies {
+            let own = self.outcomes.iter().find(|(name, _)| *name == study.name);
+            if let Some((_, Outcome::Done { findings, .. })) = own {
+                write::findings(study, findings, &options.out)?;
+            }
+        }
+        Ok(())
+    }
+
     /// The studies that failed, with the reasons.
     pub fn failures(&self) -> impl Iterator<Item = (&'static str, &str)> {
         self.outcomes
@@ -134,43 +155,28 @@ pub fn run(
     let old = options.against.as_deref().map(Record::read).transpose()?;
     let mut machine = Machine::here();
     let (date, started) = (machine::now_utc(), Instant::now());
-    let of_first = if again.is_some() { FIRST } else { 1.0 };
-    let mut report = Report {
-        trouble: None,
-        since: None,
-        outcomes: studies
-            .iter()
-            .map(|study| (study.name, Outcome::Stopped))
-            .collect(),
-        is_cancelled: false,
+    let mut tell = |share: f64, study: &str, doing: &str| {
+        heard(&Standing {
+            share,
+            study,
+            doing,
+            left: time_left(started.elapsed(), share),
+        });
     };
+    let of_first = if again.is_some() { FIRST } else { 1.0 };
+    let mut report = Report::begun(studies);
     for (nth, study) in studies.iter().enumerate() {
         let mut hear = |share: f64, doing: &str| {
             let share = of_first * (nth as f64 + share) / studies.len() as f64;
-            heard(&Standing {
-                share,
-                study: study.name,
-                doing,
-                left: time_left(started.elapsed(), share),
-            });
+            tell(share, study.name, doing);
         };
         hear(0.0, "");
-        let outcome = one(
-            study,
-            options,
-            &mut Progress::new(&mut hear, cancel.clone()),
-        );
+        let mut progress = Progress::new(&mut hear, cancel.clone());
+        let outcome = one(study, options, &mut progress);
         report.is_cancelled |= matches!(outcome, Outcome::Stopped) || cancel.is_cancelled();
-        if let Outcome::Done { findings, .. } = &outcome {
-            write::findings(study, findings, &options.out)?;
-        }
         report.outcomes[nth].1 = outcome;
-        let about = index::About {
-            machine: &machine,
-            options,
-            date: &date,
-        };
-        index::write(studies, &report, &about)?;
+        report.write_findings(&studies[nth..=nth], options)?;
+        index::write(studies, &report, (&machine, options, &date))?;
         if report.is_cancelled {
             break;
         }
@@ -178,31 +184,17 @@ pub fn run(
     if let Some(again) = again.filter(|_| !report.is_cancelled) {
         let mut hear = |nth: usize, doing: &str| {
             let share = FIRST + (1.0 - FIRST) * nth as f64 / N_PROCESSES as f64;
-            heard(&Standing {
-                share,
-                study: "times",
-                doing,
-                left: time_left(started.elapsed(), share),
-            });
+            tell(share, "times", doing);
         };
         measure_again(studies, &mut report, again, &mut hear);
         report.is_cancelled |= cancel.is_cancelled();
-        for (study, (_, outcome)) in studies.iter().zip(&report.outcomes) {
-            if let Outcome::Done { findings, .. } = outcome {
-                write::findings(study, findings, &options.out)?;
-            }
-        }
+        report.write_findings(studies, options)?;
     }
     machine.look_again();
     let record = record_of(&report, &machine.program, &date, options);
     report.since = old.map(|old| Since::between(&old, &record));
     write::text(record::NAME, &options.out, &record.to_json()?)?;
-    let about = index::About {
-        machine: &machine,
-        options,
-        date: &date,
-    };
-    index::write(studies, &report, &about)?;
+    index::write(studies, &report, (&machine, options, &date))?;
     Ok(report)
 }
 

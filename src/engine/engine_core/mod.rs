@@ -28,6 +28,13 @@ use selvedge_render::scene::Pose;
 /// From a command's refusal to the window: every tick has at most a few.
 type Say<'a> = &'a mut dyn FnMut(Notice);
 
+/// What is felt in place of the array on the scene.
+#[derive(Debug, Default)]
+struct InPlace {
+    stylus: FeltStylus,
+    cloth: Option<Box<ClothDrive>>,
+}
+
 /// Position in, amplitudes out, one tick at a time.
 #[derive(Debug)]
 pub struct EngineCore {
@@ -53,8 +60,7 @@ pub struct EngineCore {
     mask: Vec<bool>,
     /// What is felt in place of the whole scene.
     sequence: Sequence,
-    stylus: FeltStylus,
-    cloth: Option<Box<ClothDrive>>,
+    in_place: InPlace,
     revision: u64,
 }
 
@@ -85,8 +91,7 @@ impl EngineCore {
             ignored: 0,
             mask: Vec::new(),
             sequence: Sequence::default(),
-            stylus: FeltStylus::default(),
-            cloth: None,
+            in_place: InPlace::default(),
             revision: 0,
         };
         core.render_again();
@@ -165,7 +170,7 @@ impl EngineCore {
         self.fingers.follow((&self.pose, self.has_ended), now, told);
         let played = self.sequence.next_tick();
         self.lead_stylus();
-        if let Some(cloth) = &mut self.cloth {
+        if let Some(cloth) = &mut self.in_place.cloth {
             cloth.next_tick();
         }
         self.render(played);
@@ -174,14 +179,14 @@ impl EngineCore {
 
     fn render(&mut self, played: Option<Played>) {
         // What the scene would give is not looked up while a cloth is felt in its place.
-        let cloth = self.cloth.as_ref().filter(|_| played.is_none());
+        let cloth = self.in_place.cloth.as_ref().filter(|_| played.is_none());
         let cloth = cloth.map(|cloth| cloth.felt());
         let (pose, rests) = match cloth {
             Some(_) => (self.rendered.at_rest(), true),
             None => (self.rendered, self.is_stopped),
         };
         let poses = (pose, self.fingers.rendered(rests));
-        let first = (played, self.stylus.driven());
+        let first = (played, self.in_place.stylus.driven());
         let cloth = cloth.filter(|_| !self.is_stopped);
         self.scene.render(poses, &self.mask, first, cloth.as_ref());
     }
@@ -309,13 +314,13 @@ impl EngineCore {
         snapshot.pose = self.pose;
         snapshot.rendered = self.rendered;
         snapshot.turn_deg = self.angle_deg;
-        snapshot.others_moved = self.fingers.n_moves();
         let pose = |display| self.shown_pose(display);
         self.scene.fill(&mut snapshot.displays, pose);
         snapshot.is_stopped = self.is_stopped;
         snapshot.is_silent = self.is_silent();
         snapshot.sequence_step = self.sequence.step();
         snapshot.rendering = RenderingView::of(&self.scene.renderer);
+        snapshot.rendering.is_cloth = self.in_place.cloth.is_some();
         snapshot.pointer = self.track.view(self.losses(), until_felt);
         self.fingers.count_into(&mut snapshot.pointer.samples);
         snapshot.source = self
@@ -324,8 +329,8 @@ impl EngineCore {
         snapshot.playback = self.playback();
         snapshot.recording = self.recording_view();
         snapshot.stylus = self.stylus();
-        snapshot.is_cloth = self.cloth.is_some();
-        snapshot.counters.stylus_steps = self.stylus.n_steps();
+        snapshot.counters.stylus_steps = self.in_place.stylus.n_steps();
+        snapshot.counters.others_moved = self.fingers.n_moves();
         snapshot.counters.ignored = self.ignored;
     }
 

@@ -65,11 +65,11 @@ impl EngineCore {
                 retired[0] = Some(Retired::Sequence(last));
             }
             CoreCommand::Stylus(next) => {
-                retired[0] = self.stylus.exchange(next).map(Retired::Stylus);
+                retired[0] = self.in_place.stylus.exchange(next).map(Retired::Stylus);
                 self.revision += 1;
             }
             CoreCommand::Cloth(next) => {
-                retired[0] = std::mem::replace(&mut self.cloth, next).map(Retired::Cloth);
+                retired[0] = std::mem::replace(&mut self.in_place.cloth, next).map(Retired::Cloth);
                 self.revision += 1;
             }
             CoreCommand::Source(source) => retired[0] = self.set_source(source),
@@ -79,7 +79,7 @@ impl EngineCore {
             CoreCommand::Record(recorder) => {
                 retired[0] = self.end_recording();
                 // A recording's amplitudes are those of its rows on the scene.
-                retired[1] = self.cloth.take().map(Retired::Cloth);
+                retired[1] = self.in_place.cloth.take().map(Retired::Cloth);
                 self.recorder = Some(recorder);
             }
             CoreCommand::EndRecording => retired[0] = self.end_recording(),
@@ -125,7 +125,7 @@ impl EngineCore {
             self.rendered = self.pose.at_rest();
         }
         let retired = std::mem::replace(&mut self.scene, scene);
-        self.stylus.is_over |= !next.is_edited;
+        self.in_place.stylus.is_over |= !next.is_edited;
         self.render_again();
         [recording, Some(Retired::Scene(retired))]
     }

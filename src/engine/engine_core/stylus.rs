@@ -45,16 +45,17 @@ impl FeltStylus {
 impl EngineCore {
     /// What the stylus does, if one is felt in place of the array.
     pub fn stylus(&self) -> Option<StylusState> {
-        self.stylus.felt().map(StylusDrive::state)
+        self.in_place.stylus.felt().map(StylusDrive::state)
     }
 
     /// Leads the stylus to where the display is at this tick; while that is held it stays as it
     /// was.
     pub(super) fn lead_stylus(&mut self) {
-        let Some(mut drive) = self.stylus.drive.take() else {
+        let Some(mut drive) = self.in_place.stylus.drive.take() else {
             return;
         };
-        let is_felt = drive.is_for(self.scene.renderer().surfaces()) && !self.stylus.is_over;
+        let is_felt =
+            drive.is_for(self.scene.renderer().surfaces()) && !self.in_place.stylus.is_over;
         if self.is_stopped || self.sequence.played().is_some() || !is_felt {
             drive.leave();
         } else if !self.is_held {
@@ -69,10 +70,10 @@ impl EngineCore {
                 }
             }
             n_steps += drive.follow(place_of(self.rendered));
-            self.stylus.source_tick = self.playback().tick;
-            self.stylus.n_steps += n_steps as u64;
+            self.in_place.stylus.source_tick = self.playback().tick;
+            self.in_place.stylus.n_steps += n_steps as u64;
         }
-        self.stylus.drive = Some(drive);
+        self.in_place.stylus.drive = Some(drive);
     }
 
     /// Whether this tick does not follow the one that the stylus felt last.
@@ -80,7 +81,7 @@ impl EngineCore {
         if let Some(recorder) = &self.recorder {
             return recorder.n_ticks() == 0;
         }
-        let (before, tick) = (self.stylus.source_tick, self.playback().tick);
+        let (before, tick) = (self.in_place.stylus.source_tick, self.playback().tick);
         let follows = tick > 0 && (tick == before || tick == before + 1);
         self.is_on_path() && (self.is_sought() || !follows)
     }

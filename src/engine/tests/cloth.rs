@@ -52,7 +52,7 @@ fn what_is_given_is_felt_by_both_displays_under_the_gains_of_the_bands() {
             assert_eq!(felt(&mut engine, display), expected);
         }
     }
-    assert!(engine.snapshot().is_cloth);
+    assert!(engine.snapshot().rendering.is_cloth);
     let after = engine.snapshot().rendering.counters;
     assert_eq!(
         before.directions_evaluated, after.directions_evaluated,

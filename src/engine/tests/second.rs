@@ -76,7 +76,7 @@ impl Hands {
         let snapshot = self.engine.snapshot();
         [&snapshot.link, &snapshot.second_link].map(|link| {
             let status = link.as_ref().and_then(|link| link.status);
-            status.map_or(0, |status| u32::from(status.amp_sum))
+            status.map_or(0, |status| status.amp_sum)
         })
     }
 

@@ -15,7 +15,11 @@ use selvedge_textile::surface::{Profile, ProfileSet, Surface};
 pub(super) const NAME: &str = "known to twenty digits";
 
 /// Speed along the warp, mm/s, and amplitudes in µm at 40 and 320 Hz.
-#[expect(clippy::excessive_precision, reason = "digits as they were computed")]
+#[expect(
+    clippy::excessive_precision,
+    clippy::unreadable_literal,
+    reason = "digits as they were computed"
+)]
 const KNOWN: [(f64, [f64; 2]); 7] = [
     (0.5, [5.2392949661319377063, 0.33194564157402109245]),
     (8.0, [1.9344202526479079562, 4.759474492570048713]),

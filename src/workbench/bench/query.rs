@@ -129,7 +129,7 @@ pub(crate) fn live_view(
         input: input_view(&snapshot.pointer),
         sequence_step: snapshot.sequence_step,
         stylus: snapshot.stylus,
-        is_cloth: snapshot.is_cloth,
+        is_cloth: snapshot.rendering.is_cloth,
         bridge: snapshot
             .link
             .as_ref()

@@ -141,7 +141,7 @@ impl Accuracy {
             && snapshot.rendering.tuning == scene.tuning
             // Neither a stylus nor a cloth that hangs is a rendering of the array on the scene.
             && snapshot.stylus.is_none()
-            && !snapshot.is_cloth;
+            && !snapshot.rendering.is_cloth;
         if !is_settled {
             self.tally.changed += 1;
             return;

@@ -44,7 +44,7 @@ use crate::tools::bridge::actuators::ActuatorPeek;
 use crate::tools::bridge::certificate::CertificateMark;
 use crate::tools::bridge::port::Whose;
 use crate::tools::bridge::ports::Ports;
-use crate::tools::bridge::view::{ArrayView, BridgePane};
+use crate::tools::bridge::view::{ArrayView, BridgePane, SecondDevice};
 use selvedge_device::{BridgeState, FaultWords, LARGEST_CHANNELS, Target};
 
 /// The pane of the device: what is typed and chosen in it, and what it looks after while a link is
@@ -101,8 +101,9 @@ impl Tool for Bridge {
             let view = BridgePane {
                 live: &bench.live,
                 target: bench.device.target.as_deref(),
-                second: (bench.document.scene().displays.len() > 1)
-                    .then_some(bench.device.second.as_deref()),
+                second: (bench.document.scene().displays.len() > 1).then_some(SecondDevice {
+                    target: bench.device.second.as_deref(),
+                }),
                 array: ArrayView {
                     places_mm: if is_drivable {
                         profile.places_mm()
@@ -186,8 +187,9 @@ impl Bridge {
         port::show_port(ui, (first, &mut self.port), &mut self.ports, commands);
         port::show_connecting(ui, (first, &self.port), bridge.is_some(), commands);
         ui.add_space(STEP);
-        if let Some(target) = view.second {
-            self.show_second(ui, view.live.second_bridge.as_ref(), target, commands);
+        if let Some(second) = view.second {
+            let bridge = view.live.second_bridge.as_ref();
+            self.show_second(ui, bridge, second.target, commands);
         }
         fold(ui, ("Array", false), &array::summary(view), |ui| {
             array::show(ui, view, &mut self.copy_name, commands);

@@ -12,7 +12,7 @@ use crate::bench::command::{Command, Commands, ShowCommand};
 use crate::bench::sources::{SourcesView, SurfaceView};
 use crate::bench::view::{BridgePhase, BridgeView, Dot, EngineView};
 use crate::kit::theme;
-use crate::tools::bridge::view::{ArrayView, BridgePane};
+use crate::tools::bridge::view::{ArrayView, BridgePane, SecondDevice};
 use crate::tools::bridge::{Bridge, show_device};
 use selvedge_device::wiring::Answer;
 use selvedge_device::{
@@ -30,8 +30,8 @@ pub(crate) struct Stage {
     pub(crate) bridge: Bridge,
     pub(crate) sources: SourcesView,
     pub(crate) faults: Option<FaultWords>,
-    /// Whether the scene has a second display, and what that is connected to.
-    second: Option<Option<&'static str>>,
+    /// That of a second display.
+    second: Option<SecondDevice<'static>>,
 }
 
 impl Stage {
@@ -138,7 +138,7 @@ fn a_second_display_has_a_device_of_its_own() {
     let harness = window(Stage::new(BridgePhase::Ready));
     assert!(harness.query_by_label_contains("Second display").is_none());
     let stage = Stage {
-        second: Some(None),
+        second: Some(SecondDevice::default()),
         ..Stage::new(BridgePhase::Ready)
     };
     let mut harness = window(stage);

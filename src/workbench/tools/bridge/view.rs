@@ -13,8 +13,8 @@ pub(crate) struct BridgePane<'a> {
     pub live: &'a EngineView,
     /// What the link was opened to.
     pub target: Option<&'a str>,
-    /// The same of the second display's, where the scene has one.
-    pub(crate) second: Option<Option<&'a str>>,
+    /// That of the second display, where the scene has one.
+    pub(crate) second: Option<SecondDevice<'a>>,
     /// The array.
     pub array: ArrayView<'a>,
     /// What moves the display, and who hears of it.
@@ -29,6 +29,13 @@ pub(crate) struct BridgePane<'a> {
     pub(crate) has_developer_tools: bool,
     /// Whether an armed device stops when the window loses the keyboard.
     pub(crate) stops_on_focus_loss: bool,
+}
+
+/// The device of the second display.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct SecondDevice<'a> {
+    /// What its link was opened to.
+    pub(crate) target: Option<&'a str>,
 }
 
 /// The array as the pane shows it.

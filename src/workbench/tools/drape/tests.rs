@@ -376,7 +376,7 @@ fn the_device_feels_the_cloth_that_slips_and_the_scene_when_it_is_switched_off()
     let (mut desk, at) = pinched();
     tool(&mut desk).through.is_on = true;
     desk.pass(4);
-    assert!(desk.workbench.bench.engine.snapshot().is_cloth);
+    assert!(desk.workbench.bench.engine.snapshot().rendering.is_cloth);
     assert_eq!(played_um(&mut desk), 0.0, "held still it is silent");
     let mut most = 0.0_f32;
     for step in 1..24_u8 {
@@ -394,7 +394,7 @@ fn the_device_feels_the_cloth_that_slips_and_the_scene_when_it_is_switched_off()
     assert_eq!(played_um(&mut desk), 0.0);
     tool(&mut desk).through.is_on = false;
     desk.pass(4);
-    assert!(!desk.workbench.bench.engine.snapshot().is_cloth);
+    assert!(!desk.workbench.bench.engine.snapshot().rendering.is_cloth);
     assert_eq!(desk.workbench.bench.device.cloth, None);
 }
 
@@ -407,5 +407,5 @@ fn a_recording_is_felt_on_the_scene() {
     desk.pass(4);
     assert!(desk.workbench.bench.live.play.is_recording);
     assert!(!tool(&mut desk).through.is_on);
-    assert!(!desk.workbench.bench.engine.snapshot().is_cloth);
+    assert!(!desk.workbench.bench.engine.snapshot().rendering.is_cloth);
 }

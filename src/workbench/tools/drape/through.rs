@@ -64,15 +64,14 @@ impl ThroughDevice {
         let Some((t_s, title, cloth)) = cloth else {
             return;
         };
-        let feed = match &mut self.feed {
-            Some(feed) => feed,
-            None => {
-                let (feed, drive) = ClothDrive::new();
-                bench.feel_cloth(Some((drive, format!("a hanging cloth: {title}"))));
-                self.feed.insert(feed)
-            }
-        };
-        if std::mem::replace(&mut self.given_s, t_s) != t_s {
+        if self.feed.is_none() {
+            let (feed, drive) = ClothDrive::new();
+            bench.feel_cloth(Some((drive, format!("a hanging cloth: {title}"))));
+            self.feed = Some(feed);
+        }
+        let is_new = self.given_s.to_bits() != t_s.to_bits();
+        self.given_s = t_s;
+        if let Some(feed) = self.feed.as_mut().filter(|_| is_new) {
             feed.give(&tick(cloth));
         }
     }
