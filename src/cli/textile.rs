@@ -193,7 +193,10 @@ fn show(library: &Library, id: &str) -> Result<(), CliError> {
         ("level", format!("{level} dB re 1 µm")),
     ];
     if let Some(band) = &manifest.uncertainty {
-        rows.extend(band.words().map(|words| ("from a picture", words)));
+        rows.extend(
+            band.words()
+                .map(|words| ("known to", format!("{words} (heights from a picture)"))),
+        );
     }
     if let Some(friction) = textile.friction()? {
         let [miu, mmd] = [friction.miu(), friction.mmd()].map(|figure| fixed(figure, 4));

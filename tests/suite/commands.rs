@@ -241,7 +241,7 @@ fn a_library_is_listed_shown_and_measured() {
     assert_eq!(
         levels.header(),
         "textile,a40_um,a320_um,level_db,cv40,cv320,anisotropy40_db,anisotropy320_db,\
-         tuned_a40_um,tuned_a320_um"
+         tuned_a40_um,tuned_a320_um,low40_db,high40_db,low320_db,high320_db"
     );
     assert!(
         (levels.numbers("a320_um")[0] - 4.0).abs() < 0.04,

@@ -3,8 +3,8 @@
 //! Shading shows the slope towards the light: the power of a wave is that of the relief by
 //! `cos²(angle to the light)`; dark is deep shows all directions alike. The logarithm of the finest
 //! waves' power over direction is fitted by `b·cos 2(angle − tilt)`, and b compared with what
-//! either model leads to expect. What a weave has of directions of its own is in the way of both, which is
-//! why b is known to no more than [`SPREAD`].
+//! either model leads to expect. What a weave has of directions of its own is in the way of both,
+//! which is why b is known to no more than [`SPREAD`].
 
 use std::f64::consts::PI;
 

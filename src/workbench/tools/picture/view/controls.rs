@@ -330,7 +330,7 @@ fn show_method(ui: &mut Ui, draft: &mut Draft) {
         toggles(ui, &mut draft.is_cell, &choices);
     });
     row_of(ui, NAME, ("method", ""), |ui, _| {
-        let tip = "Of many reliefs, by shading and by dark is deep, the one that is nearest to what \
+        let tip = "Of many reliefs, by shading and by dark is deep, the one nearest to what all \
                    feel like; until the height is typed, shading";
         let mut choices = vec![(None, "by evidence", tip.to_owned())];
         choices.extend(Method::ALL.map(|method| {
