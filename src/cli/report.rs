@@ -19,6 +19,10 @@ const LOOK_AFTER: Duration = Duration::from_millis(20);
 
 /// What to report on, and where.
 #[derive(Debug, Args)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is an option of its own"
+)]
 pub(super) struct ReportArgs {
     /// Folder for tables, plots and index.md; it is made where it is missing
     #[arg(long, value_name = "DIR", required_unless_present_any = ["list", "times_alone"])]
@@ -122,10 +126,14 @@ fn further_process(
     let Some(mut printed) = child.stdout.take() else {
         return Err(failed("it printed nothing".to_owned()));
     };
-    let reading = std::thread::spawn(move || {
+    let read = move || {
         let mut text = String::new();
         printed.read_to_string(&mut text).map(|_| text)
-    });
+    };
+    let builder = std::thread::Builder::new().name("selvedge-times".to_owned());
+    let reading = builder
+        .spawn(read)
+        .map_err(|error| failed(error.to_string()))?;
     let status = loop {
         match child
             .try_wait()
