@@ -41,9 +41,9 @@ pub enum Command {
     /// array again. Sequences go before it. It stays with edits of its scene; where they change
     /// the list of textiles it is silent until the next comes, and another scene ends it.
     SetStylus(Option<Box<StylusDrive>>),
-    /// Lets the first two displays feel what is given of a cloth that hangs, from the next tick on,
-    /// or the scene again. Sequences go before it; gains of master and bands, limits, mask and stops
-    /// are those of every tick. It outlives scenes.
+    /// Lets the first two displays feel what is given of a cloth that hangs, from the next tick
+    /// on, or the scene again. Sequences go before it; gains of master and bands, limits, mask
+    /// and stops are those of every tick. It outlives scenes, and a recording ends it.
     SetCloth(Option<Box<ClothDrive>>),
     /// Levels of the placed textiles that were not known when the scene was prepared, one for each.
     SetLevels(Vec<PlacedLevel>),

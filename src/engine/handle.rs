@@ -28,7 +28,7 @@ use super::{
 use array::DrivenArray;
 use body::Body;
 use device::DeviceHandle;
-use selvedge_device::{ActuatorWatch, ArrayProfile, SessionLog, Target};
+use selvedge_device::{ActuatorWatch, ArrayProfile, SessionLog};
 
 /// Commands on the way.
 const MAX_COMMANDS: usize = 64;
@@ -232,14 +232,6 @@ impl Engine {
         self.push(command)
     }
 
-    fn disconnect(&mut self, display: usize) -> ReadyCommand {
-        self.switch.set_device(display, None);
-        if display == 0 {
-            self.device.actuators = None;
-        }
-        ReadyCommand::Connect(display, None)
-    }
-
     /// The latest snapshot.
     pub fn snapshot(&mut self) -> &Snapshot {
         self.collect();
@@ -337,14 +329,6 @@ impl Engine {
         self.commands_sent += 1;
         self.switch.wake_engine();
         Ok(())
-    }
-
-    fn connect(&mut self, display: usize, target: Target) -> Result<ReadyCommand, EngineError> {
-        if display > 0 && self.driven.n_second != self.driven.n_felt {
-            return Err(EngineError::NoSecondDisplay);
-        }
-        let when = (&self.switch, self.body.told());
-        Ok(self.device.open((display, target), &self.driven, when))
     }
 
     /// Another scene, with a channel for snapshots of its size.

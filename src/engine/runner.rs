@@ -3,6 +3,8 @@
 //! One step never waits; how long to sleep until the next is its answer. The clock is either the
 //! real one or one that is told, which makes a run repeatable.
 
+mod devices;
+
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -15,7 +17,7 @@ use super::ready::{CoreCommand, MAX_RETIRED, NextArray, NextScene, ReadyCommand,
 use super::snapshot_summary::{SnapshotSummary, Waker};
 use super::tick_sample::TickSampler;
 use super::{ClockView, EngineCore, Notice, Snapshot, SoundFeed, StopSwitch, Tap};
-use selvedge_device::{Bridge, BridgeEvent, SentFrame, StopHow};
+use selvedge_device::{BridgeEvent, SentFrame, StopHow};
 
 /// A tick that begins later than this after it was due is late.
 const LATE: Duration = Duration::from_millis(1);
@@ -175,23 +177,6 @@ impl Runner {
         due
     }
 
-    /// Takes the news of the second display's device, and answers its ticks.
-    fn turn_second(&mut self) {
-        let notices = &mut self.channels.notices;
-        let due = self.second.turn(self.clock.now(), &mut |event| {
-            if !matches!(event, BridgeEvent::Pong { .. }) {
-                notices.push(Notice::SecondBridge(event));
-            }
-        });
-        let may_move = self.link.is_live() && !self.link.is_identifying();
-        if self.second.is_live() && !may_move {
-            self.second.stop(StopHow::Ramp);
-        } else if due.is_some() {
-            self.second
-                .send(self.core.felt_um_of(1), self.core.fresh_stamp());
-        }
-    }
-
     fn tick(&mut self, due: Instant) {
         let started = self.clock.now();
         let notices = &mut self.channels.notices;
@@ -331,38 +316,6 @@ impl Runner {
     fn identify_channel(&mut self, channel: u16, how: (f32, u16)) {
         if let Err(why) = self.link.identify_channel(channel, how) {
             self.say(Notice::Refused(why));
-        }
-    }
-
-    fn connect(&mut self, display: usize, bridge: Option<Box<Bridge>>) {
-        let last = if display == 0 {
-            self.core.set_link(None);
-            self.link.connect(bridge)
-        } else {
-            self.second.connect(bridge)
-        };
-        self.retire(last.map(Retired::Bridge));
-    }
-
-    fn arm(&mut self, presses: u64) {
-        if presses != self.presses_heard || presses != self.switch.presses() {
-            self.say(Notice::Refused(
-                "everything was switched off meanwhile: arm again",
-            ));
-            return;
-        }
-        if self.second.is_some() && self.link.is_ready() && !self.second.is_ready() {
-            self.say(Notice::Refused(
-                "the second display's device is not ready: disconnect it, or see to it, and arm \
-                 again",
-            ));
-            return;
-        }
-        self.core.resume();
-        if !self.link.arm() {
-            self.say(Notice::Refused("no device is ready to be armed"));
-        } else if !self.link.is_identifying() {
-            self.second.arm();
         }
     }
 

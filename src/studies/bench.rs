@@ -120,8 +120,8 @@ impl Timing {
     }
 
     /// Whether it is cheaper than another one: in every process that measured both one after the
-    /// other, so that the machine's own pace of that minute cancels; `None` where they do not agree.
-    /// Of single processes their intervals decide.
+    /// other, so that the machine's own pace of that minute cancels; `None` where they do not
+    /// agree. Of single processes their intervals decide.
     pub(crate) fn is_cheaper_than(&self, other: &Self) -> Option<bool> {
         let pairs = || self.rounds.all().iter().zip(other.rounds.all());
         let is_shared = self.rounds.n > 1 && self.rounds.n == other.rounds.n;

@@ -177,9 +177,9 @@ fn about_text(about: &About<'_>, out: &mut Vec<String>) {
     out.push(
         "\nErrors depend on the seed alone; times are this machine's: CPU time of the thread, the \
          median of several processes' medians over repeats after a warm-up, with the smallest and \
-         the largest of them as the interval; of one process, the quartiles of its repeats. ● is on \
-         the Pareto front: on its case nothing else is both surely cheaper and as exact; surely is \
-         in every process. ○ is open: something more exact may be as cheap.\n"
+         the largest of them as the interval; of one process, the quartiles of its repeats. ● is \
+         on the Pareto front: on its case nothing else is both surely cheaper and as exact; surely \
+         is in every process. ○ is open: something more exact may be as cheap.\n"
             .to_owned(),
     );
 }

@@ -36,6 +36,7 @@ mod picture;
 mod probe;
 mod program;
 mod programs;
+mod render;
 mod report;
 mod sinks;
 mod watched;

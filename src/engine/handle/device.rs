@@ -4,9 +4,10 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 
+use super::Engine;
 use super::array::DrivenArray;
-use crate::StopSwitch;
 use crate::ready::ReadyCommand;
+use crate::{EngineError, StopSwitch};
 use selvedge_device::{ActuatorWatch, Bridge, SessionLog, Target};
 
 /// What the handle keeps of devices.
@@ -23,7 +24,8 @@ pub(super) struct DeviceHandle {
 }
 
 impl DeviceHandle {
-    /// Begins to open a device for the first or second display. The switch stops it from now on, and its link wakes the engine.
+    /// Begins to open a device for the first or second display. The switch stops it from now on,
+    /// and its link wakes the engine.
     pub(super) fn open(
         &mut self,
         (display, target): (usize, Target),
@@ -63,5 +65,32 @@ impl DeviceHandle {
             log.about(name, &value);
         }
         self.said.insert(name, value);
+    }
+}
+
+impl Engine {
+    /// Begins to open a device for the first or second display.
+    ///
+    /// # Errors
+    /// There is no such display that is like the first.
+    pub(super) fn connect(
+        &mut self,
+        display: usize,
+        target: Target,
+    ) -> Result<ReadyCommand, EngineError> {
+        if display > 0 && self.driven.n_second != self.driven.n_felt {
+            return Err(EngineError::NoSecondDisplay);
+        }
+        let when = (&self.switch, self.body.told());
+        Ok(self.device.open((display, target), &self.driven, when))
+    }
+
+    /// Lets go of the device of a display.
+    pub(super) fn disconnect(&mut self, display: usize) -> ReadyCommand {
+        self.switch.set_device(display, None);
+        if display == 0 {
+            self.device.actuators = None;
+        }
+        ReadyCommand::Connect(display, None)
     }
 }

@@ -40,7 +40,8 @@ pub(crate) const STUDY: Study = Study {
     question: "How far is each method of rendering from the reference, and what does a tick of \
                24 contactors cost?",
     reference: "The method reference: f64, every bin below 1 kHz, on the very same poses; for the \
-                last case, and for the reference itself, amplitudes computed to 60 digits elsewhere.",
+                last case, and for the reference itself, amplitudes computed to 60 digits \
+                elsewhere.",
     error: ("level error", "dB"),
     cost_of: "tick of 24 contactors",
     run,

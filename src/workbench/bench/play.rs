@@ -103,8 +103,8 @@ impl Bench {
         self.device.stylus = words;
     }
 
-    /// Lets the engine feel a cloth that hangs, told in a line, or the scene again; the log of links
-    /// hears which.
+    /// Lets the engine feel a cloth that hangs, told in a line, or the scene again; the log of
+    /// links hears which.
     pub(crate) fn feel_cloth(&mut self, cloth: Option<(ClothDrive, String)>) {
         let (drive, words) = cloth.unzip();
         self.send(selvedge_engine::Command::SetCloth(drive.map(Box::new)));

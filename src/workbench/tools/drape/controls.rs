@@ -11,9 +11,9 @@ use crate::kit::widgets::list::list;
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{slider_row, tell};
 use crate::kit::widgets::text::{button, quiet_pairs, row, toggle, toggles};
+use crate::tools::drape::felt_rows::{show_felt, show_through};
 use crate::tools::drape::grasp::OPENINGS_MM;
 use crate::tools::drape::hung::{Base, ClothChoice, ClothFacts, OtherTextile, Second};
-use crate::tools::drape::through::ThroughDevice;
 use crate::tools::drape::{Draping, MAX_CLOTHS};
 use selvedge_foundation::quantity::fixed;
 
@@ -128,31 +128,6 @@ pub(crate) fn show(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext
     show_through(ui, draping, context);
     ui.add_space(STEP);
     show_look(ui, draping);
-}
-
-/// Whether the device feels the cloth in place of the scene.
-fn show_through(ui: &mut Ui, draping: &mut Draping, context: &PaneContext<'_>) {
-    let bench = &*context.bench;
-    let refusal = ThroughDevice::refusal(bench);
-    row(ui, "Through the device", |ui| {
-        let on = "The displays feel what the fingers touch of the chosen cloth; limits and stops \
-                  are those of the device";
-        let kinds = [
-            (false, "off", "The scene is felt"),
-            (true, "on", refusal.unwrap_or(on)),
-        ];
-        ui.add_enabled_ui(refusal.is_none(), |ui| {
-            toggles(ui, &mut draping.through.is_on, &kinds);
-        });
-    });
-    if let Some(why) = refusal {
-        note(ui, why, Tone::Quiet);
-    }
-    if draping.through.is_on {
-        for words in ThroughDevice::notes(bench) {
-            note(ui, &words, Tone::Quiet);
-        }
-    }
 }
 
 fn show_cloths(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext<'_>) {
@@ -376,35 +351,6 @@ fn show_hand(ui: &mut Ui, draping: &mut Draping) {
         }
     }
     show_felt(ui, draping);
-}
-
-/// What each finger feels, in numbers.
-fn show_felt(ui: &mut Ui, draping: &Draping) {
-    let frame = draping.motion.frame_at(draping.look.looked_at_s);
-    let cloth = frame.and_then(|frame| frame.cloths.get(draping.look.cloth));
-    let felt = |nth: usize| cloth.and_then(|cloth| cloth.fingers.get(nth));
-    for (nth, names) in [["press 1", "slip 1"], ["press 2", "slip 2"]]
-        .into_iter()
-        .enumerate()
-    {
-        let digits = |value: Option<f64>, decimals| {
-            value.map_or_else(|| "–".to_owned(), |value| fixed(value, decimals))
-        };
-        let press = digits(felt(nth).map(|felt| felt.press_n), 3);
-        let slip = digits(felt(nth).map(|felt| felt.slip_mm_per_s), 1);
-        quiet_pairs(
-            ui,
-            [
-                (names[0], press, "N", "Force of the pad across the cloth"),
-                (
-                    names[1],
-                    slip,
-                    "mm/s",
-                    "Mean speed of its points over the cloth",
-                ),
-            ],
-        );
-    }
 }
 
 fn show_look(ui: &mut Ui, draping: &mut Draping) {

@@ -10,6 +10,7 @@
 mod camera;
 mod chart;
 mod controls;
+mod felt_rows;
 mod grasp;
 mod hand;
 mod hung;

@@ -1,0 +1,64 @@
+//! What the fingers feel: in numbers, and whether the device feels it.
+
+use eframe::egui::Ui;
+
+use crate::bench::tool::PaneContext;
+use crate::kit::widgets::fields::{Tone, note};
+use crate::kit::widgets::text::{quiet_pairs, row, toggles};
+use crate::tools::drape::Draping;
+use crate::tools::drape::through::ThroughDevice;
+use selvedge_foundation::quantity::fixed;
+
+/// Whether the device feels the cloth in place of the scene.
+pub(crate) fn show_through(ui: &mut Ui, draping: &mut Draping, context: &PaneContext<'_>) {
+    let bench = &*context.bench;
+    let refusal = ThroughDevice::refusal(bench);
+    row(ui, "Through the device", |ui| {
+        let on = "The displays feel what the fingers touch of the chosen cloth; limits and stops \
+                  are those of the device";
+        let kinds = [
+            (false, "off", "The scene is felt"),
+            (true, "on", refusal.unwrap_or(on)),
+        ];
+        ui.add_enabled_ui(refusal.is_none(), |ui| {
+            toggles(ui, &mut draping.through.is_on, &kinds);
+        });
+    });
+    if let Some(why) = refusal {
+        note(ui, why, Tone::Quiet);
+    }
+    if draping.through.is_on {
+        for words in ThroughDevice::notes(bench) {
+            note(ui, &words, Tone::Quiet);
+        }
+    }
+}
+
+/// What each finger feels, in numbers.
+pub(crate) fn show_felt(ui: &mut Ui, draping: &Draping) {
+    let frame = draping.motion.frame_at(draping.look.looked_at_s);
+    let cloth = frame.and_then(|frame| frame.cloths.get(draping.look.cloth));
+    let felt = |nth: usize| cloth.and_then(|cloth| cloth.fingers.get(nth));
+    for (nth, names) in [["press 1", "slip 1"], ["press 2", "slip 2"]]
+        .into_iter()
+        .enumerate()
+    {
+        let digits = |value: Option<f64>, decimals| {
+            value.map_or_else(|| "–".to_owned(), |value| fixed(value, decimals))
+        };
+        let press = digits(felt(nth).map(|felt| felt.press_n), 3);
+        let slip = digits(felt(nth).map(|felt| felt.slip_mm_per_s), 1);
+        quiet_pairs(
+            ui,
+            [
+                (names[0], press, "N", "Force of the pad across the cloth"),
+                (
+                    names[1],
+                    slip,
+                    "mm/s",
+                    "Mean speed of its points over the cloth",
+                ),
+            ],
+        );
+    }
+}
