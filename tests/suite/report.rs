@@ -5,7 +5,8 @@ use selvedge_foundation::files::Table;
 use crate::program::{Lab, Outcome};
 
 const COLUMNS: &str = "method,setting,case,size,error_cases,error_p99_cases,promised_cases,kept,\
-                       cpu_s,cpu_q25_s,cpu_q75_s,wall_s,n_repeats,bytes,pareto,came_back,should";
+                       cpu_s,cpu_low_s,cpu_high_s,wall_s,n_repeats,n_processes,bytes,pareto,\
+                       came_back,should";
 
 fn table(lab: &Lab, name: &str) -> Table {
     let columns: Vec<&str> = COLUMNS.split(',').collect();
