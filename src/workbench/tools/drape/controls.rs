@@ -10,12 +10,11 @@ use crate::kit::widgets::fields::{Tone, note, row_of, step_title};
 use crate::kit::widgets::list::list;
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{slider_row, tell};
-use crate::kit::widgets::text::{button, quiet_pairs, row, toggle, toggles};
+use crate::kit::widgets::text::{button, row, toggle, toggles};
 use crate::tools::drape::felt_rows::{show_felt, show_through};
 use crate::tools::drape::grasp::OPENINGS_MM;
 use crate::tools::drape::hung::{Base, ClothChoice, ClothFacts, OtherTextile, Second};
 use crate::tools::drape::{Draping, MAX_CLOTHS};
-use selvedge_foundation::quantity::fixed;
 
 /// Room for the name of a field, points.
 const NAME: f32 = 52.0;
