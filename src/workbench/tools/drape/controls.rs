@@ -124,7 +124,7 @@ pub(crate) fn show(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext
     ui.add_space(STEP);
     show_hand(ui, draping);
     ui.add_space(STEP);
-    show_through(ui, draping, context);
+    show_through(ui, &mut draping.through.is_on, context.bench);
     ui.add_space(STEP);
     show_look(ui, draping);
 }
@@ -349,7 +349,11 @@ fn show_hand(ui: &mut Ui, draping: &mut Draping) {
             *value = new.unwrap_or(*value);
         }
     }
-    show_felt(ui, draping);
+    let frame = draping.motion.frame_at(draping.look.looked_at_s);
+    show_felt(
+        ui,
+        frame.and_then(|frame| frame.cloths.get(draping.look.cloth)),
+    );
 }
 
 fn show_look(ui: &mut Ui, draping: &mut Draping) {

@@ -2,16 +2,15 @@
 
 use eframe::egui::Ui;
 
-use crate::bench::tool::PaneContext;
+use crate::bench::Bench;
 use crate::kit::widgets::fields::{Tone, note};
 use crate::kit::widgets::text::{quiet_pairs, row, toggles};
-use crate::tools::drape::Draping;
+use crate::tools::drape::hung::ClothFrame;
 use crate::tools::drape::through::ThroughDevice;
 use selvedge_foundation::quantity::fixed;
 
 /// Whether the device feels the cloth in place of the scene.
-pub(crate) fn show_through(ui: &mut Ui, draping: &mut Draping, context: &PaneContext<'_>) {
-    let bench = &*context.bench;
+pub(crate) fn show_through(ui: &mut Ui, is_on: &mut bool, bench: &Bench) {
     let refusal = ThroughDevice::refusal(bench);
     row(ui, "Through the device", |ui| {
         let on = "The displays feel what the fingers touch of the chosen cloth; limits and stops \
@@ -21,23 +20,21 @@ pub(crate) fn show_through(ui: &mut Ui, draping: &mut Draping, context: &PaneCon
             (true, "on", refusal.unwrap_or(on)),
         ];
         ui.add_enabled_ui(refusal.is_none(), |ui| {
-            toggles(ui, &mut draping.through.is_on, &kinds);
+            toggles(ui, is_on, &kinds);
         });
     });
     if let Some(why) = refusal {
         note(ui, why, Tone::Quiet);
     }
-    if draping.through.is_on {
+    if *is_on {
         for words in ThroughDevice::notes(bench) {
             note(ui, &words, Tone::Quiet);
         }
     }
 }
 
-/// What each finger feels, in numbers.
-pub(crate) fn show_felt(ui: &mut Ui, draping: &Draping) {
-    let frame = draping.motion.frame_at(draping.look.looked_at_s);
-    let cloth = frame.and_then(|frame| frame.cloths.get(draping.look.cloth));
+/// What each finger feels of a cloth, in numbers.
+pub(crate) fn show_felt(ui: &mut Ui, cloth: Option<&ClothFrame>) {
     let felt = |nth: usize| cloth.and_then(|cloth| cloth.fingers.get(nth));
     for (nth, names) in [["press 1", "slip 1"], ["press 2", "slip 2"]]
         .into_iter()
