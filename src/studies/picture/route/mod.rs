@@ -53,9 +53,11 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
          Heights of pictures are scaled to the SMD that the tester reads on the cloth, so a \
          picture alone tells no height. A mean cell holds the lattice's own waves alone: what \
          varies from yarn to yarn, most of what 40 Hz is made of on fine cloths at 100 mm/s \
-         (waves of 2.5 mm), is averaged away; the picture without lattice keeps it. Pictures \
-         have an even albedo, one light, no shadows \
-         cast and noise of 1 % of white: a photograph is worse."
+         (waves of 2.5 mm), is averaged away; the picture without lattice keeps it. The picture \
+         as it is, by evidence, is what a textile of a picture keeps: reliefs of two models \
+         under many lights, weighed. What it is tuned by was chosen on these very cloths. \
+         Pictures have an even albedo, one light, no shadows cast and noise of 1 % of white or \
+         more: a photograph is worse."
             .to_owned(),
     );
     Ok(findings)
