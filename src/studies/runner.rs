@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use super::machine::{self, Machine};
 use super::record::{self, Record};
-use super::rounds::{self, N_PROCESSES};
+use super::rounds;
 use super::since::Since;
 use super::{Bench, Effort, Findings, ReportError, Study, index, write};
 use selvedge_foundation::progress::{CancelFlag, Progress};
@@ -182,11 +182,12 @@ pub fn run(
         }
     }
     if let Some(again) = again.filter(|_| !report.is_cancelled) {
+        let n_processes = rounds::n_processes(options.effort);
         let mut hear = |nth: usize, doing: &str| {
-            let share = FIRST + (1.0 - FIRST) * nth as f64 / N_PROCESSES as f64;
+            let share = FIRST + (1.0 - FIRST) * nth as f64 / n_processes as f64;
             tell(share, "times", doing);
         };
-        measure_again(studies, &mut report, again, &mut hear);
+        measure_again((studies, n_processes), &mut report, again, &mut hear);
         report.is_cancelled |= cancel.is_cancelled();
         report.write_findings(studies, options)?;
     }
@@ -202,7 +203,7 @@ pub fn run(
 /// and joins what they found. Studies whose work is so long that it is timed once stay as they are.
 /// A process that fails ends it, and is told.
 fn measure_again(
-    studies: &[Study],
+    (studies, n_processes): (&[Study], usize),
     report: &mut Report,
     again: &mut Again<'_>,
     hear: &mut dyn FnMut(usize, &str),
@@ -218,15 +219,15 @@ fn measure_again(
     let timed = timed.filter(|(_, (_, outcome))| is_timed(outcome));
     let names: Vec<&str> = timed.map(|(study, _)| study.name).collect();
     let mut records = Vec::new();
-    for nth in 1..N_PROCESSES {
+    for nth in 1..n_processes {
         if names.is_empty() {
             return;
         }
-        hear(nth, &format!("process {} of {N_PROCESSES}", nth + 1));
+        hear(nth, &format!("process {} of {n_processes}", nth + 1));
         match again(&names).and_then(|text| Record::parse(&text)) {
             Ok(record) => records.push(record),
             Err(error) => {
-                let why = format!("process {} of {N_PROCESSES}: {error}", nth + 1);
+                let why = format!("process {} of {n_processes}: {error}", nth + 1);
                 report.trouble = Some(why);
                 break;
             }

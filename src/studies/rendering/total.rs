@@ -19,7 +19,7 @@ const MOST_OVER: (f64, f64) = (0.25, 5.0);
 const MOST_OF_REFERENCE: usize = 48;
 /// Scenes that come with the program and take libraries that are part of it: their file's name, and
 /// what it holds.
-const SCENES: [(&str, &str); 3] = [
+const SCENES: [(&str, &str); 2] = [
     (
         "four alternatives",
         include_str!("../../../assets/scenes/four-alternatives.scene.toml"),
@@ -27,10 +27,6 @@ const SCENES: [(&str, &str); 3] = [
     (
         "all sixteen",
         include_str!("../../../assets/scenes/all-sixteen.scene.toml"),
-    ),
-    (
-        "Wall and Harwin",
-        include_str!("../../../assets/scenes/wall-harwin.scene.toml"),
     ),
 ];
 /// How long explorations are, and how many ticks those are.
