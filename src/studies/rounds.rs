@@ -14,8 +14,8 @@ use super::runner::guarded;
 use super::{Bench, Effort, Findings, ReportError, Study};
 use selvedge_foundation::progress::{CancelFlag, Progress};
 
-/// Processes that measure, the first among them: the fewer of a quick report say with 88 % what five
-/// say with 94 %.
+/// Processes that measure, the first among them: the fewer of a quick report say with 88 % what
+/// five say with 94 %.
 pub(crate) fn n_processes(effort: Effort) -> usize {
     effort.pick(4, 5)
 }
