@@ -160,12 +160,12 @@ fn command() -> clap::Command {
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {
     let args: Vec<OsString> = std::env::args_os().collect();
-    let command = command();
+    let mut command = command();
     if let Some(line) = usage::unknown_command(args.get(1..).unwrap_or_default(), &command) {
         terminal::line(&line);
         return ExitCode::from(2);
     }
-    let parsed = command.clone().try_get_matches_from(&args);
+    let parsed = command.try_get_matches_from_mut(&args);
     let parsed = parsed.and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches)));
     let (cli, matches) = match parsed {
         Ok(parsed) => parsed,

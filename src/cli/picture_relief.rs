@@ -12,7 +12,6 @@ use selvedge_foundation::files::sha256_hex;
 use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_foundation::quantity::{fixed, with_unit};
-use selvedge_textile::picture::brightness::Brightness;
 use selvedge_textile::picture::shading::{Light, Method, ShadingError, ShadingOptions};
 use selvedge_textile::picture::{Found, Relief};
 use selvedge_textile::surface::Representation;
@@ -190,11 +189,8 @@ impl ReliefArgs {
         n_threads: usize,
         progress: &mut Progress<'_>,
     ) -> Result<Result<Felt, String>, CliError> {
-        let tile = &found.tile;
-        let brightness = match self.relief_of {
-            Ground::Cell => Brightness::of(tile, px_per_mm.unwrap_or(1.0), n_threads),
-            Ground::Picture => Brightness::of_picture(luminance, found.turn_rad()),
-        };
+        let whole = (self.relief_of == Ground::Picture).then_some(luminance);
+        let brightness = found.brightness(whole, px_per_mm, n_threads);
         let mut relief = match Relief::of(brightness, self.light, &self.options(), progress) {
             Ok(relief) => relief,
             Err(ShadingError::Cancelled(_)) => return Err(Cancelled.into()),
@@ -207,7 +203,10 @@ impl ReliefArgs {
         let mut about = self.about(origin, px_per_mm);
         about.size_px = Some(relief.brightness.size_px);
         let advice = match &self.textile {
-            Some(_) => self.believe(&mut relief, &mut about, n_threads, progress)?,
+            Some(_) => {
+                let own = (&mut relief, self.shading.is_some());
+                Ensemble::believe(own, &mut about, self.lamp(), n_threads, progress)?
+            }
             None => None,
         };
         let relief_um = match (about.scale, px_per_mm) {
@@ -216,8 +215,9 @@ impl ReliefArgs {
             _ => Some(PictureTextile::relief_um_of(&relief.shape, &about)?),
         };
         let wants = self.textile.as_ref();
-        let files = wants
-            .map(|_| PictureTextile::files_of(&relief.shape, &relief.brightness, tile, &about));
+        let files = wants.map(|_| {
+            PictureTextile::files_of(&relief.shape, &relief.brightness, &found.tile, &about)
+        });
         Ok(Ok(Felt {
             relief,
             relief_um,
@@ -226,25 +226,12 @@ impl ReliefArgs {
         }))
     }
 
-    /// Tries many reliefs for a textile: it keeps the one that is nearest to what all feel like,
-    /// unless a method was named, and how far that may be off. What to do if that is far.
-    fn believe(
-        &self,
-        relief: &mut Relief,
-        about: &mut PictureTextile,
-        n_threads: usize,
-        progress: &mut Progress<'_>,
-    ) -> Result<Option<String>, CliError> {
-        let lamp = self.light.map_or(Lamp::Unknown, |light| Lamp::Known {
+    /// The lamp, as far as it is said where it stood.
+    fn lamp(&self) -> Lamp {
+        self.light.map_or(Lamp::Unknown, |light| Lamp::Known {
             light,
             within_deg: self.light_within.unwrap_or(Lamp::WITHIN_DEG),
-        });
-        let ensemble = Ensemble::of(&relief.brightness, about, lamp, n_threads, progress)?;
-        if self.shading.is_none() {
-            ensemble.keep(relief, about, progress)?;
-        }
-        about.levels = ensemble.levels_about(&relief.shape, about)?;
-        Ok(ensemble.advice(&about.levels, about.scale))
+        })
     }
 
     /// Writes the textile, if one is wanted, and tells in lines what was found.

@@ -27,6 +27,17 @@ pub struct GainTerms {
 }
 
 impl GainTerms {
+    /// Those of a tuning over what a textile has of its own in a band, without compression, dB.
+    pub(crate) fn of(tuning: &Tuning, band: Band, [manifest_db, scene_db]: [f64; 2]) -> Self {
+        Self {
+            master_db: tuning.gain_db,
+            band_db: tuning.band_gain_db(band),
+            manifest_db,
+            scene_db,
+            compression_db: 0.0,
+        }
+    }
+
     /// Their sum, at most [`MAX_TOTAL_GAIN_DB`].
     pub fn total_db(&self) -> f64 {
         let sum = self.master_db + self.band_db + self.manifest_db + self.scene_db;
@@ -119,14 +130,7 @@ impl Gains {
 
     /// Amplitude factors by band of what is no textile of the scene: the master's and the band's.
     pub(super) fn plain_factors(&self) -> [f64; 2] {
-        let Tuning {
-            gain_db,
-            gain_40_db,
-            gain_320_db,
-            ..
-        } = self.tuning;
-        [gain_40_db, gain_320_db]
-            .map(|band_db| factor_of_gain((gain_db + band_db).min(MAX_TOTAL_GAIN_DB)))
+        Band::ALL.map(|band| GainTerms::of(&self.tuning, band, [0.0; 2]).factor())
     }
 
     /// Amplitude factors of a textile by band.
@@ -183,15 +187,10 @@ fn terms_of(
     band: Band,
 ) -> GainTerms {
     let compress = |reference_db| tuning.compression_gain_db(textile.level.db(), reference_db);
+    let scene_db = textile.scene_db + textile.scene_band_db[band.index()];
     GainTerms {
-        master_db: tuning.gain_db,
-        band_db: match band {
-            Band::Low => tuning.gain_40_db,
-            Band::High => tuning.gain_320_db,
-        },
-        manifest_db: textile.manifest_db,
-        scene_db: textile.scene_db + textile.scene_band_db[band.index()],
         compression_db: reference_db.map_or(0.0, compress),
+        ..GainTerms::of(tuning, band, [textile.manifest_db, scene_db])
     }
 }
 

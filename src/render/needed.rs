@@ -52,12 +52,9 @@ fn needed(
 
 /// Whether any band of a textile has a gain above −∞ dB.
 fn is_let_through(placed: &PlacedTextile, tuning: &Tuning, manifest_db: f64) -> bool {
-    let terms = |band: Band| GainTerms {
-        master_db: tuning.gain_db,
-        band_db: tuning.band_gain_db(band),
-        manifest_db,
-        scene_db: placed.gain_db + placed.band_gain_db(band),
-        compression_db: 0.0,
+    let terms = |band: Band| {
+        let scene_db = placed.gain_db + placed.band_gain_db(band);
+        GainTerms::of(tuning, band, [manifest_db, scene_db])
     };
     Band::ALL.into_iter().any(|band| terms(band).factor() > 0.0)
 }

@@ -11,7 +11,7 @@ use super::machine::{self, Machine};
 use super::record::{self, Record};
 use super::rounds;
 use super::since::Since;
-use super::{Bench, Effort, Findings, ReportError, Study, index, write};
+use super::{Bench, Effort, Findings, ReportError, Row, Study, index, write};
 use selvedge_foundation::progress::{CancelFlag, Progress};
 
 /// What a report is to hold, and where it goes.
@@ -84,6 +84,19 @@ impl Report {
             trouble: None,
             since: None,
         }
+    }
+
+    /// The studies whose times further processes may measure: that are done, and whose work is not
+    /// so long that it is timed once.
+    fn timed(&self, studies: &[Study]) -> Vec<Study> {
+        let is_repeated = |row: &Row| row.cost.is_some_and(|cost| cost.n_repeats > 1);
+        let is_timed = |outcome: &Outcome| match outcome {
+            Outcome::Done { findings, .. } => findings.rows.iter().any(is_repeated),
+            _ => false,
+        };
+        let all = studies.iter().zip(&self.outcomes);
+        let timed = all.filter(|(_, (_, outcome))| is_timed(outcome));
+        timed.map(|(study, _)| *study).collect()
     }
 
     /// Writes the tables and plots of these studies, as far as they are done.
@@ -187,9 +200,10 @@ pub fn run(
             let share = FIRST + (1.0 - FIRST) * nth as f64 / n_processes as f64;
             tell(share, "times", doing);
         };
-        measure_again((studies, n_processes), &mut report, again, &mut hear);
+        let timed = report.timed(studies);
+        measure_again((&timed, n_processes), &mut report, again, &mut hear);
         report.is_cancelled |= cancel.is_cancelled();
-        report.write_findings(studies, options)?;
+        report.write_findings(&timed, options)?;
     }
     machine.look_again();
     let record = record_of(&report, &machine.program, &date, options);
@@ -199,30 +213,20 @@ pub fn run(
     Ok(report)
 }
 
-/// Has the times of all studies that have any measured by further processes, one after the other,
-/// and joins what they found. Studies whose work is so long that it is timed once stay as they are.
-/// A process that fails ends it, and is told.
+/// Has the times of studies measured by further processes, one after the other, and joins what they
+/// found. A process that fails ends it, and is told.
 fn measure_again(
-    (studies, n_processes): (&[Study], usize),
+    (timed, n_processes): (&[Study], usize),
     report: &mut Report,
     again: &mut Again<'_>,
     hear: &mut dyn FnMut(usize, &str),
 ) {
-    let is_timed = |outcome: &Outcome| match outcome {
-        Outcome::Done { findings, .. } => {
-            let costs = findings.rows.iter().filter_map(|row| row.cost);
-            costs.into_iter().any(|cost| cost.n_repeats > 1)
-        }
-        _ => false,
-    };
-    let timed = studies.iter().zip(&report.outcomes);
-    let timed = timed.filter(|(_, (_, outcome))| is_timed(outcome));
-    let names: Vec<&str> = timed.map(|(study, _)| study.name).collect();
+    if timed.is_empty() {
+        return;
+    }
+    let names: Vec<&str> = timed.iter().map(|study| study.name).collect();
     let mut records = Vec::new();
     for nth in 1..n_processes {
-        if names.is_empty() {
-            return;
-        }
         hear(nth, &format!("process {} of {n_processes}", nth + 1));
         match again(&names).and_then(|text| Record::parse(&text)) {
             Ok(record) => records.push(record),

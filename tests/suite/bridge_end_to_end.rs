@@ -5,7 +5,6 @@
 #![cfg(unix)]
 
 use std::collections::BTreeMap;
-use std::io::Write as _;
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
@@ -313,19 +312,7 @@ fn lines_on_standard_input_move_the_display_and_bad_ones_are_dropped() {
     ];
     let (outcome, device) = undisturbed(|| {
         let device = Device::start(&lab, &[]);
-        let mut command = lab.command(&args);
-        command
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped());
-        let mut child = command.spawn().unwrap();
-        child
-            .stdin
-            .take()
-            .unwrap()
-            .write_all(lines.as_bytes())
-            .unwrap();
-        let outcome = Outcome::of(&child.wait_with_output().unwrap());
+        let outcome = lab.run_on(&args, &lines);
         let device = device.end(&lab);
         is_undisturbed(&outcome).then_some((outcome, device))
     });

@@ -1,10 +1,7 @@
 //! The command line itself: what is almost a command, one file named twice, streams, completions
 //! and manual pages.
 
-use std::io::Write as _;
-use std::process::Stdio;
-
-use crate::program::{Lab, Outcome};
+use crate::program::Lab;
 
 /// Words of a line that no word needs quotes in.
 fn words(line: &str) -> Vec<&str> {
@@ -79,21 +76,7 @@ fn rates_that_cannot_hold_320_hz_and_pictures_that_are_no_png_are_refused() {
 #[test]
 fn a_path_and_a_table_come_from_standard_input() {
     let lab = Lab::with_scene();
-    let fed = |line: &str, text: &str| {
-        let mut command = lab.command(&words(line));
-        command
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped());
-        let mut child = command.spawn().unwrap();
-        child
-            .stdin
-            .take()
-            .unwrap()
-            .write_all(text.as_bytes())
-            .unwrap();
-        Outcome::of(&child.wait_with_output().unwrap())
-    };
+    let fed = |line: &str, text: &str| lab.run_on(&words(line), text);
     let path = lab.read("a.csv");
     let by_stream = fed("render a.scene.toml --path -", &path);
     assert_eq!(

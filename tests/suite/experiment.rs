@@ -83,20 +83,6 @@ impl PaneHost {
     }
 }
 
-/// Runs a session on lines to its end.
-fn held(lab: &Lab, args: &[&str], lines: &str) -> Outcome {
-    let mut command = lab.command(args);
-    let command = command
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped());
-    let mut child = command.spawn().unwrap();
-    let mut typed = child.stdin.take().unwrap();
-    typed.write_all(lines.as_bytes()).unwrap();
-    drop(typed);
-    Outcome::of(&child.wait_with_output().unwrap())
-}
-
 /// The cells of a log without times.
 fn timeless(log: &Path) -> Vec<(String, Vec<String>)> {
     let rows = Rows::trials(log);
@@ -113,7 +99,7 @@ fn timeless(log: &Path) -> Vec<(String, Vec<String>)> {
 #[test]
 fn killed_in_the_middle_and_resumed_a_session_has_the_rows_of_one_that_was_not() {
     let whole = lab();
-    let outcome = held(&whole, &RUN, &answers(0..N_TRIALS));
+    let outcome = whole.run_on(&RUN, &answers(0..N_TRIALS));
     assert_eq!((outcome.code, outcome.err.as_str()), (0, ""), "{outcome:?}");
     assert!(outcome.out.contains("10 rows in"), "{outcome:?}");
 
@@ -137,11 +123,7 @@ fn killed_in_the_middle_and_resumed_a_session_has_the_rows_of_one_that_was_not()
         described.contains("the last 0 min ago; give --resume"),
         "{described}"
     );
-    let outcome = held(
-        &lab,
-        &[&RUN[..], &["--resume"]].concat(),
-        &answers(4..N_TRIALS),
-    );
+    let outcome = lab.run_on(&[&RUN[..], &["--resume"]].concat(), &answers(4..N_TRIALS));
     assert_eq!(outcome.code, 0, "{outcome:?}");
     assert!(outcome.err.contains("4 of 10 trials done"), "{outcome:?}");
     assert!(outcome.err.contains("p01_1.csv.torn-1"), "{outcome:?}");
@@ -154,14 +136,14 @@ fn killed_in_the_middle_and_resumed_a_session_has_the_rows_of_one_that_was_not()
 #[test]
 fn a_session_that_ran_out_of_lines_fails_and_one_that_was_quit_does_not() {
     let lab = lab();
-    let outcome = held(&lab, &RUN, &answers(0..2));
+    let outcome = lab.run_on(&RUN, &answers(0..2));
     assert_eq!(outcome.code, 1, "{outcome:?}");
     assert!(
         outcome.one_line().contains("2 of 10 trials are in"),
         "{outcome:?}"
     );
     let more = [&RUN[..], &["--resume", "--note", "late"]].concat();
-    let outcome = held(&lab, &more, "\n1 easy\nquit\n");
+    let outcome = lab.run_on(&more, "\n1 easy\nquit\n");
     assert_eq!(outcome.code, 0, "{outcome:?}");
     let log = Rows::trials(&lab.path(LOG));
     assert_eq!(log.text("note"), ["", "", "late"]);
@@ -189,18 +171,18 @@ fn two_programs_cannot_hold_one_session() {
 #[test]
 fn restarting_begins_the_next_session_and_leaves_the_first() {
     let lab = lab();
-    held(&lab, &RUN, &answers(0..3));
+    lab.run_on(&RUN, &answers(0..3));
     let before = fs::read(lab.path(LOG)).unwrap();
-    let outcome = held(&lab, &[&RUN[..], &["--restart"]].concat(), &answers(0..1));
+    let outcome = lab.run_on(&[&RUN[..], &["--restart"]].concat(), &answers(0..1));
     assert!(outcome.out.contains("session 2: 0 of 10"), "{outcome:?}");
     assert_eq!(fs::read(lab.path(LOG)).unwrap(), before);
-    let outcome = held(&lab, &[&RUN[..], &["--resume"]].concat(), "quit\n");
+    let outcome = lab.run_on(&[&RUN[..], &["--resume"]].concat(), "quit\n");
     assert!(
         outcome.err.contains("session 2 of p01 has 1 of 10"),
         "{outcome:?}"
     );
     let first = [&RUN[..], &["--resume", "--session", "1"]].concat();
-    let outcome = held(&lab, &first, "quit\n");
+    let outcome = lab.run_on(&first, "quit\n");
     assert!(
         outcome.err.contains("session 1 of p01 has 3 of 10"),
         "{outcome:?}"
@@ -211,10 +193,10 @@ fn restarting_begins_the_next_session_and_leaves_the_first() {
 fn participants_are_listed_once_and_sessions_go_by_their_number() {
     let lab = lab();
     let described = ["--age", "31", "--sex", "female", "--room", "B-214"];
-    held(&lab, &[&RUN[..], &described].concat(), "quit\n");
+    lab.run_on(&[&RUN[..], &described].concat(), "quit\n");
     let second = ["experiment", "run", "cloth.toml", "--subject", "p02"];
-    held(&lab, &second, "quit\n");
-    held(&lab, &[&RUN[..], &["--resume"]].concat(), "quit\n");
+    lab.run_on(&second, "quit\n");
+    lab.run_on(&[&RUN[..], &["--resume"]].concat(), "quit\n");
     let table = Rows::read(&lab.path("cloth/participants.csv"));
     assert_eq!(table.text("pseudonym"), ["p01", "p02"]);
     assert_eq!(table.text("age_years"), ["31", ""]);
@@ -260,7 +242,7 @@ fn what_cannot_be_held_is_told_in_one_line() {
 #[test]
 fn a_design_that_was_changed_in_between_is_refused() {
     let lab = lab();
-    held(&lab, &RUN, &answers(0..3));
+    lab.run_on(&RUN, &answers(0..3));
     let before = fs::read(lab.path(LOG)).unwrap();
     lab.write("cloth.toml", CLOTH.replace("seed = 3", "seed = 4"));
     let described = lab.refuse(&[&RUN[..], &["--resume"]].concat());
@@ -284,7 +266,7 @@ fn something_else_may_present_what_an_array_would() {
         "here",
         "--presented-elsewhere=rig 2",
     ];
-    let outcome = held(&lab, &args, "\n\n2 hard\nquit\n");
+    let outcome = lab.run_on(&args, "\n\n2 hard\nquit\n");
     assert_eq!(outcome.code, 0, "{outcome:?}");
     let log = Rows::trials(&lab.path("here/similar-fabrics_odd-one-out_p01_1.csv"));
     assert_eq!(log.text("device"), ["rig 2"]);
@@ -360,14 +342,10 @@ fn on_a_full_disk_nothing_is_lost_and_the_session_goes_on_elsewhen() {
     let described = desk.hears("your note was not kept");
     assert!(described.contains("xxx"), "the note is told back");
     assert_eq!(desk.ends().code, 0);
-    let outcome = held(
-        &lab,
-        &[&RUN[..], &["--resume"]].concat(),
-        &answers(2..N_TRIALS),
-    );
+    let outcome = lab.run_on(&[&RUN[..], &["--resume"]].concat(), &answers(2..N_TRIALS));
     assert_eq!(outcome.code, 0, "{outcome:?}");
     let whole = self::lab();
-    held(&whole, &RUN, &answers(0..N_TRIALS));
+    whole.run_on(&RUN, &answers(0..N_TRIALS));
     assert_eq!(timeless(&lab.path(LOG)), timeless(&whole.path(LOG)));
 }
 

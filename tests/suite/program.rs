@@ -1,6 +1,7 @@
 //! Runs the built program in a folder of its own, with small textiles to run it on.
 
 use std::fs;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -89,6 +90,20 @@ impl Lab {
             command.env_remove(variable);
         }
         command
+    }
+
+    /// Runs the program to its end on what it is fed, all of which it takes.
+    pub(crate) fn run_on(&self, args: &[&str], fed: &str) -> Outcome {
+        let mut command = self.command(args);
+        command
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        let mut stdin = child.stdin.take().unwrap();
+        stdin.write_all(fed.as_bytes()).unwrap();
+        drop(stdin);
+        Outcome::of(&child.wait_with_output().unwrap())
     }
 
     /// Runs the program to its end.

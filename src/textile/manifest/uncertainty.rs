@@ -66,6 +66,11 @@ impl Uncertainty {
         ]
     }
 
+    /// From where to where, dB, as people read it.
+    pub fn range_words([low_db, high_db]: [f64; 2]) -> String {
+        format!("{low_db:+.1} to {high_db:+.1}")
+    }
+
     /// The mean of warp and weft of that.
     pub fn mean_level_db(&self, band: Band) -> [f64; 2] {
         let [warp, weft] = [0.0, 90.0].map(|deg| self.level_db(band, deg));
@@ -76,10 +81,7 @@ impl Uncertainty {
     /// nothing is said.
     pub fn words(&self) -> Option<String> {
         let of = |band: Band| {
-            let [warp, weft] = [0.0, 90.0].map(|deg| {
-                let [low, high] = self.level_db(band, deg);
-                format!("{low:+.1} to {high:+.1}")
-            });
+            let [warp, weft] = [0.0, 90.0].map(|deg| Self::range_words(self.level_db(band, deg)));
             format!(
                 "A{} {warp} dB along the warp, {weft} along the weft",
                 band.carrier_hz()

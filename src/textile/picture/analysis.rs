@@ -5,6 +5,7 @@
 
 use super::autocorrelation::Autocorrelation;
 use super::basis::{Basis, mix};
+use super::brightness::Brightness;
 use super::colour::PeriodicColour;
 use super::directions::{DirectionOptions, Directions};
 use super::lattice::{Lattice, NoLattice};
@@ -116,7 +117,7 @@ const MAX_TURN: f64 = std::f64::consts::FRAC_PI_8;
 impl Found {
     /// How far the yarns that lie along the picture's rows are turned, radians clockwise: by the
     /// short vector of the threads, or of the lattice, that is nearest to x. 0 if none is near.
-    pub fn turn_rad(&self) -> f64 {
+    pub(crate) fn turn_rad(&self) -> f64 {
         let Basis { p1, p2 } = self
             .lattice
             .thread_grid
@@ -125,6 +126,20 @@ impl Found {
         let turns = vectors.map(|[x, y]| (y * x.signum()).atan2(x.abs()));
         let nearest = turns.into_iter().min_by(|a, b| a.abs().total_cmp(&b.abs()));
         nearest.filter(|turn| turn.abs() <= MAX_TURN).unwrap_or(0.0)
+    }
+
+    /// What heights are found on: the whole picture as it is, if it is given, or the mean cell.
+    /// Without a scale the whole lattice still has a shape; only synthesized cloth needs one.
+    pub fn brightness(
+        &self,
+        whole: Option<&Grid<f64>>,
+        px_per_mm: Option<f64>,
+        n_threads: usize,
+    ) -> Brightness {
+        match whole {
+            Some(luminance) => Brightness::of_picture(luminance, self.turn_rad()),
+            None => Brightness::of(&self.tile, px_per_mm.unwrap_or(1.0), n_threads),
+        }
     }
 
     /// Whether repeats drift over the picture, so that the mean of all cells is blurred.

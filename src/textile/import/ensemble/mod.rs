@@ -131,11 +131,29 @@ impl Ensemble {
         Ok(shape)
     }
 
-    /// Puts the kept shape, and what it was found under, in the place of a relief's own.
+    /// Tries all members on a relief's brightness. The relief becomes the one that is nearest to what
+    /// all feel like, unless its method was chosen, and the textile keeps how far its levels may be
+    /// off. What to do if that is far.
     ///
     /// # Errors
-    /// Cancelled.
-    pub fn keep(
+    /// As [`Self::of`].
+    pub fn believe(
+        (relief, is_chosen): (&mut Relief, bool),
+        about: &mut PictureTextile,
+        lamp: Lamp,
+        n_threads: usize,
+        progress: &mut Progress<'_>,
+    ) -> Result<Option<String>, TextileError> {
+        let ensemble = Self::of(&relief.brightness, about, lamp, n_threads, progress)?;
+        if !is_chosen {
+            ensemble.keep(relief, about, progress)?;
+        }
+        about.levels = ensemble.levels_about(&relief.shape, about)?;
+        Ok(ensemble.advice(&about.levels, about.scale))
+    }
+
+    /// Puts the kept shape, and what it was found under, in the place of a relief's own.
+    fn keep(
         &self,
         relief: &mut Relief,
         about: &PictureTextile,
@@ -157,10 +175,7 @@ impl Ensemble {
 
     /// What a manifest says of a textile of a shape: Hz, degrees from the warp, and from where to
     /// where the amplitude may lie, dB from what is felt.
-    ///
-    /// # Errors
-    /// A shape that has no height.
-    pub fn levels_about(
+    fn levels_about(
         &self,
         shape: &Shape,
         about: &PictureTextile,

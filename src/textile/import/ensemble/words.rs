@@ -7,7 +7,7 @@ use crate::picture::shading::Method;
 
 impl Ensemble {
     /// What to do about a band that is too wide, by what makes it wide for this picture.
-    pub fn advice(&self, levels: &[[f64; 4]], scale: HeightScale) -> Option<String> {
+    pub(super) fn advice(&self, levels: &[[f64; 4]], scale: HeightScale) -> Option<String> {
         let band = Uncertainty {
             levels: levels.to_vec(),
             ..Uncertainty::default()
@@ -46,8 +46,9 @@ impl Ensemble {
             _ => "the SMD (--smd-um), ",
         };
         Some(format!(
-            "A{hz} along the {way} may lie {low:+.1} to {high:+.1} dB from what is felt: {why}; \
-             give {lamp}{smd}a stroke of the tester, or a picture with the lamp on another side"
+            "A{hz} along the {way} may lie {} dB from what is felt: {why}; \
+             give {lamp}{smd}a stroke of the tester, or a picture with the lamp on another side",
+            Uncertainty::range_words([low, high])
         ))
     }
 }

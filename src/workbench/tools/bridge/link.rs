@@ -8,19 +8,19 @@ use crate::bench::view::{BridgePhase, BridgeView};
 use crate::kit::theme::{Palette, ROW};
 use crate::kit::widgets::text::{mark, paragraph, small};
 
+/// How it stands with a link.
+pub(crate) fn word(bridge: Option<&BridgeView>) -> &'static str {
+    bridge.map_or("not connected", |bridge| bridge.state)
+}
+
 pub(crate) fn show_state(ui: &mut Ui, bridge: Option<&BridgeView>, target: Option<&str>) {
     let palette = Palette::in_ui(ui);
-    let (lamp, word) = match bridge {
-        None => (palette.line, "not connected"),
-        Some(bridge) => (
-            match bridge.phase {
-                BridgePhase::Armed | BridgePhase::Broken => palette.danger,
-                BridgePhase::Ready => palette.text,
-                BridgePhase::Opening => palette.line,
-            },
-            bridge.state,
-        ),
+    let lamp = match bridge.map(|bridge| bridge.phase) {
+        Some(BridgePhase::Armed | BridgePhase::Broken) => palette.danger,
+        Some(BridgePhase::Ready) => palette.text,
+        Some(BridgePhase::Opening) | None => palette.line,
     };
+    let word = word(bridge);
     let name = target.unwrap_or("No device");
     let size = vec2(ui.available_width(), ROW);
     ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {

@@ -237,8 +237,8 @@ impl Bridge {
         target: Option<&str>,
         commands: &mut Commands,
     ) {
-        let (whose, summary) = (Whose::Second, port::second_summary(bridge));
-        fold(ui, ("Second display", true), &summary, |ui| {
+        let whose = Whose::Second;
+        fold(ui, ("Second display", true), link::word(bridge), |ui| {
             link::show_state(ui, bridge, target);
             port::show_port(
                 ui,

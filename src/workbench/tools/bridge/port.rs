@@ -10,7 +10,6 @@ use eframe::egui::{
 
 use crate::bench::command::Commands;
 use crate::bench::command::device::DeviceCommand;
-use crate::bench::view::BridgeView;
 use crate::kit::theme;
 use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::text::{button, choice, named, paragraph};
@@ -175,12 +174,6 @@ pub(crate) fn show_connecting(
             }
         });
     });
-}
-
-/// How it stands with the second display's device, beside the name of its fold.
-pub(crate) fn second_summary(bridge: Option<&BridgeView>) -> String {
-    let words = bridge.map_or("not connected", |bridge| bridge.state);
-    words.to_owned()
 }
 
 /// How the sentence begins, here and as a notice.

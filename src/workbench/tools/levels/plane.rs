@@ -14,6 +14,7 @@ use crate::tools::levels::proposal::Change;
 use crate::tools::levels::{Placed, in_tenths};
 use selvedge_chart::{Axis, Chart, Columns, Ink, Series, Style, Tone, Weight, Words};
 use selvedge_foundation::quantity::with_unit;
+use selvedge_textile::Uncertainty;
 use selvedge_textile::tactile::Band;
 
 /// A dot is taken hold of within this distance, points.
@@ -188,7 +189,7 @@ pub(crate) fn show(
             .push(ShowCommand::Hover(Part::Cloth(one.index)).into());
         let [low, high] = one.row.level_db.map(|db| with_unit(db, 1, "dB SL"));
         let known = one.known_db.map_or_else(String::new, |ends| {
-            let [low, high] = ends.map(|[low, high]| format!("{low:+.1} to {high:+.1}"));
+            let [low, high] = ends.map(Uncertainty::range_words);
             format!(", known to {low} and {high} dB")
         });
         let words = format!(

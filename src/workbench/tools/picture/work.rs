@@ -246,13 +246,8 @@ fn shaped(
         ShadingError::Cancelled(cancelled) => End::Cancelled(cancelled),
         error => End::Failed(Step::Light, error.to_string()),
     };
-    let brightness = if inputs.is_cell {
-        // Without a scale the whole lattice still has a shape; only synthesized cloth needs one.
-        let px_per_mm = inputs.px_per_mm().unwrap_or(1.0);
-        Brightness::of(&tiled.tile, px_per_mm, n_threads())
-    } else {
-        Brightness::of_picture(luminance, tiled.turn_rad())
-    };
+    let whole = (!inputs.is_cell).then_some(luminance);
+    let brightness = tiled.brightness(whole, inputs.px_per_mm(), n_threads());
     let light = (!inputs.is_light_estimated).then_some(inputs.light);
     let options = ShadingOptions {
         method: inputs.method.unwrap_or_default(),
@@ -284,7 +279,9 @@ fn made(
         representation: inputs.representation,
         ..PictureTextile::default()
     };
-    let advice = believe(inputs, &mut relief, &mut about, progress).map_err(failed)?;
+    let own = (&mut relief, inputs.method.is_some());
+    let advice = Ensemble::believe(own, &mut about, lamp(inputs), n_threads(), progress);
+    let advice = advice.map_err(failed)?;
     let (shape, brightness) = (&relief.shape, &relief.brightness);
     let files = PictureTextile::files_of(shape, brightness, &tiled.tile, &about).map_err(failed)?;
     let text = |name: &str| {
@@ -326,28 +323,16 @@ fn made(
     })
 }
 
-/// Tries many reliefs: the textile has the one that is nearest to what all feel like, unless a
-/// method was chosen, and how far that may be off. What to do if that is far.
-fn believe(
-    inputs: &Draft,
-    relief: &mut Relief,
-    about: &mut PictureTextile,
-    progress: &mut Progress<'_>,
-) -> Result<Option<String>, TextileError> {
-    let lamp = if inputs.is_light_estimated {
+/// The lamp, as far as it is known where it stands.
+fn lamp(inputs: &Draft) -> Lamp {
+    if inputs.is_light_estimated {
         Lamp::Unknown
     } else {
         Lamp::Known {
             light: inputs.light,
             within_deg: Lamp::WITHIN_DEG,
         }
-    };
-    let ensemble = Ensemble::of(&relief.brightness, about, lamp, n_threads(), progress)?;
-    if inputs.method.is_none() {
-        ensemble.keep(relief, about, progress)?;
     }
-    about.levels = ensemble.levels_about(&relief.shape, about)?;
-    Ok(ensemble.advice(&about.levels, about.scale))
 }
 
 /// The heights as the textile has them.

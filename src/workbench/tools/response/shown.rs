@@ -80,10 +80,8 @@ pub(crate) fn words_of(
         )
     });
     let band = view.uncertainty.as_ref().map_or_else(String::new, |known| {
-        let ends = Band::ALL.map(|band| {
-            let [low, high] = known.level_db(band, from_warp_deg);
-            format!("{low:+.1} to {high:+.1}")
-        });
+        let ends =
+            Band::ALL.map(|band| Uncertainty::range_words(known.level_db(band, from_warp_deg)));
         format!(
             "\nHeights from a picture: all may lie {} dB from this",
             ends.join(" / ")

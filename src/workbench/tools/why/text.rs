@@ -8,6 +8,7 @@ use selvedge_device::{Calibration, FULL_CODE};
 use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_render::GainTerms;
 use selvedge_render::array::DirectionTrace;
+use selvedge_textile::Uncertainty;
 
 /// The line of the output limits: views mark it when one bites.
 pub(crate) const LIMITS: &str = "Limits";
@@ -71,7 +72,7 @@ pub(crate) fn lines(why: &Explanation) -> Vec<(String, String)> {
     let amplitudes = both(why.trace.amplitudes_um, 3, "µm");
     lines.push(("Amplitudes".to_owned(), amplitudes));
     lines.extend(why.known_db.map(|ends| {
-        let [low, high] = ends.map(|[low, high]| format!("{low:+.1} to {high:+.1}"));
+        let [low, high] = ends.map(Uncertainty::range_words);
         (
             "Known to".to_owned(),
             format!("{low} / {high} dB of that: heights from a picture"),
