@@ -131,9 +131,9 @@ impl Ensemble {
         Ok(shape)
     }
 
-    /// Tries all members on a relief's brightness. The relief becomes the one that is nearest to what
-    /// all feel like, unless its method was chosen, and the textile keeps how far its levels may be
-    /// off. What to do if that is far.
+    /// Tries all members on a relief's brightness. The relief becomes the one that is nearest to
+    /// what all feel like, unless its method was chosen, and the textile keeps how far its levels
+    /// may be off. What to do if that is far.
     ///
     /// # Errors
     /// As [`Self::of`].
