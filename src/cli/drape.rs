@@ -165,7 +165,7 @@ fn follow(
             mesh.write(drape)?;
             next_mesh += MESH_EVERY_S;
         }
-        let to_s = nth as f64 * step_s;
+        let to_s = Drape::after_s(nth, step_s);
         while let Some(t_s) = forces.next_between(to_s) {
             path.at(start_s + t_s, &mut hands);
             drape.feel(&hands, &mut forces.between_n);

@@ -289,6 +289,18 @@ impl Layout {
     }
 }
 
+impl Layout {
+    /// The textile that hangs in a task, if one does: cloth on the table lies there.
+    pub fn hanging<'a>(design: &'a Design, task: &Task) -> Option<&'a str> {
+        let hangs = design.composition.presentation.hangs;
+        let stimulus = design.stimuli.get(task.item().filter(|_| hangs)?)?;
+        match &stimulus.source {
+            Source::Textile { id, .. } => Some(id),
+            Source::RealCloth(_) | Source::Vibration { .. } => None,
+        }
+    }
+}
+
 /// The tuning of a trial: what is felt alone has the adapted value, and an adjustment the values
 /// that its parameters are turned to.
 pub fn tuned(design: &Design, task: &Task, mut tuning: Tuning, values: &[f64]) -> Tuning {

@@ -11,10 +11,12 @@ use crate::trial::Task;
 use selvedge_engine::{Played, SequenceStep, TICKS_PER_S};
 use selvedge_foundation::geometry::Point;
 
-/// Every textile that is compared is felt for so long at least, s.
+/// Every textile that is compared, and one that hangs, is felt for so long at least, s.
 const LEAST_EXPLORED_S: f64 = 1.0;
 /// Slower is no exploration, mm/s.
 const LEAST_SPEED_MM_PER_S: f64 = 2.0;
+/// A cloth that hangs is rubbed where a contactor is given as much, µm: less no finger feels.
+const LEAST_RUBBED_UM: f64 = 0.1;
 /// Ticks without their frame that may be, of all; one may be always.
 const MOST_MISSED_SHARE: f64 = 0.01;
 /// Ticks in a row without their frame that may not be.
@@ -120,6 +122,8 @@ pub struct PresentedTick {
     pub position: Point,
     /// How fast it moved, mm/s.
     pub speed_mm_per_s: f64,
+    /// The most that a contactor was given in either band, µm.
+    pub strongest_um: f64,
     /// The step of a sequence that was played.
     pub sequence_step: Option<u16>,
 }
@@ -144,6 +148,7 @@ pub struct Watch {
     /// What is played, and how long each step was, ticks.
     steps: Vec<(SequenceStep, u32)>,
     may_limit: bool,
+    hangs: bool,
     n_ticks: u64,
     n_armed: u64,
     n_values: u64,
@@ -190,11 +195,12 @@ impl Watch {
     /// Of a task before its first tick, by a device or an emulator of one.
     pub fn of(design: &Design, task: &Task, proof: Proof) -> Self {
         let places = Layout::of(design, task).places;
-        let is_compared = places.len() > 1;
+        let hangs = Layout::hanging(design, task).is_some();
+        let is_needed = places.len() > 1 || hangs;
         let explored = |place: Place| Explored {
             place,
             n_ticks: 0,
-            is_needed: is_compared,
+            is_needed,
         };
         let steps = sequence(design, task);
         let is_textile = |step: &SequenceStep| matches!(step.played, Played::Textile(_));
@@ -209,6 +215,7 @@ impl Watch {
             },
             steps: steps.into_iter().map(|step| (step, 0)).collect(),
             may_limit: !design.composition.parameters().is_empty(),
+            hangs,
             n_ticks: 0,
             n_armed: 0,
             n_values: 0,
@@ -242,7 +249,13 @@ impl Watch {
 
     /// Counts a tick of movement for what is felt: what is uncovered now, or what lies there.
     fn explore(&mut self, tick: &PresentedTick, played: Option<Played>) {
-        if tick.speed_mm_per_s < LEAST_SPEED_MM_PER_S || !tick.is_sent {
+        let hangs = self.hangs;
+        let is_moving = if hangs {
+            tick.strongest_um >= LEAST_RUBBED_UM
+        } else {
+            tick.speed_mm_per_s >= LEAST_SPEED_MM_PER_S
+        };
+        if !is_moving || !tick.is_sent {
             return;
         }
         let [width_mm, height_mm] = Place::SIZE_MM;
@@ -252,7 +265,7 @@ impl Watch {
                 tick.position.x_mm - corner.x_mm,
                 tick.position.y_mm - corner.y_mm,
             );
-            (0.0..=width_mm).contains(&x_mm) && (0.0..=height_mm).contains(&y_mm)
+            hangs || (0.0..=width_mm).contains(&x_mm) && (0.0..=height_mm).contains(&y_mm)
         };
         let felt = match played {
             Some(Played::Textile(textile)) => self.places.get_mut(textile).filter(is_on),
@@ -350,6 +363,9 @@ impl Watch {
         let one = self.places.iter().find(|one| one.is_unfelt())?;
         Some(match one.place.number {
             Some(number) => format!("number {number} was not felt for {LEAST_EXPLORED_S} s yet"),
+            None if self.places.len() == 1 => {
+                format!("the cloth was not rubbed for {LEAST_EXPLORED_S} s yet")
+            }
             None => format!("the one in the middle was not felt for {LEAST_EXPLORED_S} s yet"),
         })
     }

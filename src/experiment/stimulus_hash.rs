@@ -79,6 +79,8 @@ impl StimulusHashes {
         }
         let stylus = design.composition.presentation.stylus.as_ref();
         parts.extend(stylus.map(|stylus| format!("{}\n", stylus.words())));
+        let hangs = design.composition.presentation.hangs;
+        parts.extend(hangs.then(|| "hangs\n".to_owned()));
         let alone = task
             .adapted
             .filter(|_| design.composition.presentation.n == 1);

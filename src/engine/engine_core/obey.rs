@@ -78,8 +78,6 @@ impl EngineCore {
             CoreCommand::Control(control) => self.control(control),
             CoreCommand::Record(recorder) => {
                 retired[0] = self.end_recording();
-                // A recording's amplitudes are those of its rows on the scene.
-                retired[1] = self.in_place.cloth.take().map(Retired::Cloth);
                 self.recorder = Some(recorder);
             }
             CoreCommand::EndRecording => retired[0] = self.end_recording(),

@@ -34,6 +34,7 @@ pub(super) fn check_presentation(design: &Design) -> Checked {
     let is_in_time = presentation.shown == Shown::Intervals;
     check_intervals(design)?;
     check_stylus(design)?;
+    check_hanging(design)?;
     let is_felt_alone = is_in_time || presentation.shown == Shown::Single;
     let what = "vibrations do not lie at places";
     let mend = "give kind = \"intervals\" or \"single\"";
@@ -74,6 +75,33 @@ fn check_stylus(design: &Design) -> Checked {
     let mend =
         "give kind = \"single\", \"pair\", \"places\" or \"set\" of textiles, or take it away";
     need(is_led, place, what, mend)
+}
+
+/// A cloth hangs alone, and is a textile.
+fn check_hanging(design: &Design) -> Checked {
+    let presentation = &design.composition.presentation;
+    let is_as_it_is = |one: &Stimulus| match &one.source {
+        Source::Textile { variant, .. } => {
+            let mut numbers = variant.numbers().into_iter();
+            numbers.all(|(_, value, _)| value == 0.0)
+        }
+        Source::RealCloth(_) => true,
+        Source::Vibration { .. } => false,
+    };
+    let is_alone = presentation.shown == Shown::Single
+        && design.medium == Medium::Array
+        && presentation.stylus.is_none()
+        && design.composition.adaptation.is_none()
+        && design.stimuli.iter().all(is_as_it_is);
+    let what = "what hangs is one textile as it is, felt by the array";
+    let mend = "give kind = \"single\", medium = \"array\", textiles without gains or turns, no \
+                stylus and nothing adapted, or take hangs away";
+    need(
+        is_alone || !presentation.hangs,
+        ("presentation", 0, "hangs"),
+        what,
+        mend,
+    )
 }
 
 /// Intervals are of vibrations, or of textiles, which a finger takes time to feel.

@@ -35,6 +35,8 @@ pub(super) struct PresentationKeys {
     interval_ms: Option<u32>,
     masker_db: Option<f64>,
     stylus: Option<StylusSettings>,
+    #[serde(default)]
+    hangs: bool,
 }
 
 fn nothing() -> Standard {
@@ -194,6 +196,7 @@ impl PresentationKeys {
             interval_ms: self.interval_ms.unwrap_or(usual_ms),
             masker_db: self.masker_db,
             stylus: self.stylus,
+            hangs: self.hangs,
         })
     }
 }

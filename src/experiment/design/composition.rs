@@ -43,6 +43,8 @@ pub struct Presentation {
     /// The stylus that textiles are felt with in place of the array: its vibration drives all
     /// contactors, its force is for a device beside it.
     pub stylus: Option<StylusSettings>,
+    /// Whether textiles hang as cloths between two fingers in place of lying under the array.
+    pub hangs: bool,
 }
 
 named! { "kind",

@@ -50,7 +50,7 @@ macro_rules! shipped {
 }
 
 /// The designs that are part of the program: the papers' sessions and the usual measurements.
-const SHIPPED: [(&str, &str); 15] = [
+const SHIPPED: [(&str, &str); 16] = [
     shipped!("ranking-real-target"),
     shipped!("ranking-virtual-target"),
     shipped!("odd-one-out"),
@@ -66,6 +66,7 @@ const SHIPPED: [(&str, &str); 15] = [
     shipped!("magnitude"),
     shipped!("rating"),
     shipped!("force-or-vibration"),
+    shipped!("rating-hanging"),
 ];
 
 /// A study.

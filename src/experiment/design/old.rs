@@ -200,6 +200,7 @@ fn composed(shown: Shown, n: usize, form: Form, (sets, repeats): (Sets, usize)) 
             interval_ms: interval_ms(),
             masker_db: None,
             stylus: None,
+            hangs: false,
         },
         question: Question::default(),
         response: Response {

@@ -12,6 +12,7 @@ const STILL: PresentedTick = PresentedTick {
         y_mm: 0.0,
     },
     speed_mm_per_s: 0.0,
+    strongest_um: 0.0,
     sequence_step: None,
 };
 
@@ -248,4 +249,25 @@ fn an_interval_in_which_the_display_rested_voids_once_it_is_over() {
         ..tick(1, 30.0)
     };
     assert!(void(&shown(&mut beside, [away; 80])).contains("0.00 s"));
+}
+
+#[test]
+fn a_cloth_that_hangs_has_to_be_rubbed_wherever_the_pointer_is() {
+    let mut watch = watch("rating-hanging", &of_items(&[0]));
+    let moved = PresentedTick {
+        speed_mm_per_s: 90.0,
+        ..STILL
+    };
+    let standing = shown(&mut watch, [moved; 100]);
+    let Standing::Incomplete(why) = standing else {
+        panic!("{standing:?}");
+    };
+    assert!(why.contains("not rubbed"), "{why}");
+    let rubbed = PresentedTick {
+        strongest_um: 2.0,
+        ..STILL
+    };
+    assert_ne!(shown(&mut watch, [rubbed; 39]), Standing::Valid);
+    assert_eq!(shown(&mut watch, [rubbed]), Standing::Valid);
+    assert_eq!(watch.presentation(0).explored_s, [1.0]);
 }

@@ -88,6 +88,7 @@ use crate::bench::preparing::Preparing;
 use crate::bench::recording::Recordings;
 use crate::bench::recovery::Recovery;
 use crate::bench::selection::Selection;
+use crate::bench::session::Hanging;
 use crate::bench::settings::{Settings, own_arrays, own_libraries, own_recordings, own_work};
 use crate::bench::state::{
     DeviceState, EngineScene, Exploration, Files, InspectionCache, LibraryState, Past,
@@ -330,6 +331,12 @@ impl Bench {
         self.session.active.is_some()
     }
 
+    /// What the session that is under way hangs.
+    pub(crate) fn hanging(&self) -> &Hanging {
+        let active = self.session.active.as_ref();
+        active.map_or(&Hanging::Never, |active| &active.hanging)
+    }
+
     /// Whether a pane would tell what a session must not.
     pub(crate) fn is_veiled(&self, pane: Pane) -> bool {
         // The analysis has a cover of its own.
@@ -337,7 +344,8 @@ impl Bench {
             pane,
             Pane::Participant | Pane::Experimenter | Pane::Bridge | Pane::Analysis
         );
-        self.has_session() && !is_open
+        let hangs = pane == Pane::Drape && *self.hanging() != Hanging::Never;
+        self.has_session() && !is_open && !hangs
     }
 
     /// Whether a pane is in sight.

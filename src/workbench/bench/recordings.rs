@@ -33,6 +33,10 @@ impl Bench {
         if self.live.play.is_recording {
             return self.send(selvedge_engine::Command::StopRecording);
         }
+        if self.live.is_cloth {
+            // What is recorded is felt on the scene.
+            self.feel_cloth(None);
+        }
         let about = self.new_page();
         match self.engine.record() {
             Ok(recording) => {

@@ -104,6 +104,8 @@ pub(crate) struct Draping {
     pub(crate) motion: Motion,
     pub(crate) through: ThroughDevice,
     history: History<Chosen, &'static str>,
+    /// What the user had chosen, while a session hangs its own.
+    put_by: Option<Chosen>,
     /// What was asked for last.
     wanted: Arc<Wanted>,
 }
@@ -154,6 +156,37 @@ impl Draping {
             .lead(&self.motion, self.chosen.second, &bench.ctx);
         self.motion.follow(bench, &self.wanted, lead);
         self.take_answers();
+    }
+
+    /// Hangs what a session presents, and afterwards what hung before.
+    fn follow_session(&mut self, bench: &Bench) {
+        let hung = bench.hanging().textile().map(|hung| Chosen {
+            cloths: vec![ClothChoice {
+                textile: Some(OtherTextile {
+                    key: hung.id.clone(),
+                    name: String::new(),
+                    id: hung.id.clone(),
+                    library: hung.library.clone(),
+                }),
+                changes: Vec::new(),
+            }],
+            ..Chosen::default()
+        });
+        let next = match hung {
+            Some(hung) => Some(hung),
+            None if bench.has_session() => None,
+            None => self.put_by.take(),
+        };
+        let Some(next) = next.filter(|next| *next != self.chosen) else {
+            return;
+        };
+        let before = std::mem::replace(&mut self.chosen, next);
+        if bench.has_session() {
+            self.put_by.get_or_insert(before);
+        }
+        self.look = Look::default();
+        self.hands = Hands::default();
+        self.motion.restart();
     }
 
     /// Lets the engine feel the chosen cloth, if that is switched on.
@@ -223,6 +256,7 @@ impl Tool for Draping {
     }
 
     fn logic(&mut self, bench: &mut Bench) {
+        self.follow_session(bench);
         if self.motion.is_under_way() {
             self.take_answers();
         }

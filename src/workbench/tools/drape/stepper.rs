@@ -218,7 +218,7 @@ impl Hanging {
         self.owed_s -= n_steps as f64 * step_s;
         for nth in 1..=n_steps {
             self.since.1 += 1;
-            let t_s = self.since.0 + self.since.1 as f64 * step_s;
+            let t_s = self.since.0 + Drape::after_s(self.since.1, step_s);
             match &ask.lead {
                 // Who does not know the fingers yet leads none.
                 Lead::Towards(to) if to.len() != from.len() => {}

@@ -235,7 +235,7 @@ fn a_recorded_hand_is_replayed_as_the_command_follows_it() {
     let samples = &tool(&mut desk).motion.samples;
     let mut most = 0.0_f64;
     for (nth, sample) in samples.iter().enumerate() {
-        hands.at((nth + 1) as f64 * drape.step_s(), &mut now);
+        hands.at(Drape::after_s(nth as u64 + 1, drape.step_s()), &mut now);
         drape.step(&now).unwrap();
         let [energy_j, _] = drape.energy_j();
         for (finger, row) in sample.rows.iter().enumerate() {

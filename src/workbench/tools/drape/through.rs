@@ -14,7 +14,8 @@ const N_CONTACTORS: usize = 24;
 #[derive(Default)]
 pub(crate) struct ThroughDevice {
     pub(crate) is_on: bool,
-    feed: Option<ClothFeed>,
+    /// With the title of what hangs.
+    feed: Option<(ClothFeed, String)>,
     /// The time of what was given last, s.
     given_s: f64,
 }
@@ -51,28 +52,41 @@ impl ThroughDevice {
         notes
     }
 
-    /// Gives the engine what is new of the cloth that hangs at a time, or the scene again. Once a
-    /// frame.
+    /// Gives the engine what is new of the cloth that hangs at a time, or the scene again; a session
+    /// says itself whether its cloth is felt. Once a frame.
     pub(crate) fn follow(&mut self, cloth: Option<(f64, &str, &ClothFrame)>, bench: &mut Bench) {
         self.is_on &= Self::refusal(bench).is_none();
-        if !self.is_on {
+        let hung = bench.hanging().textile();
+        if !self.is_on && hung.is_none() {
             if self.feed.take().is_some() {
                 bench.feel_cloth(None);
             }
             return;
         }
-        let Some((t_s, title, cloth)) = cloth else {
-            return;
+        let is_silent = hung.is_some_and(|hung| !hung.is_felt);
+        // A session's trial may begin before its cloth is looked at.
+        let title = match (hung, cloth) {
+            (Some(hung), _) => hung.id.clone(),
+            (None, Some((_, title, _))) => title.to_owned(),
+            (None, None) => return,
         };
-        if self.feed.is_none() {
+        if self.feed.as_ref().is_none_or(|(_, of)| *of != title) {
             let (feed, drive) = ClothDrive::new();
             bench.feel_cloth(Some((drive, format!("a hanging cloth: {title}"))));
-            self.feed = Some(feed);
+            self.feed = Some((feed, title));
         }
+        let Some((t_s, _, cloth)) = cloth else {
+            return;
+        };
         let is_new = self.given_s.to_bits() != t_s.to_bits();
         self.given_s = t_s;
-        if let Some(feed) = self.feed.as_mut().filter(|_| is_new) {
-            feed.give(&tick(cloth));
+        if let Some((feed, _)) = self.feed.as_mut().filter(|_| is_new) {
+            let felt = if is_silent {
+                ClothTick::default()
+            } else {
+                tick(cloth)
+            };
+            feed.give(&felt);
         }
     }
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use eframe::egui::{Align2, Id, Margin, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use crate::bench::command::{FileCommand, Purpose};
+use crate::bench::session::Hanging;
 use crate::bench::tool::PaneContext;
 use crate::kit::pane::{inside, paint_sentence, scroll_area};
 use crate::kit::plot::{self, Setting};
@@ -65,6 +66,9 @@ const BARS: f32 = 56.0;
 /// Shows the pane.
 pub(crate) fn show(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext<'_>) {
     let whole = ui.available_rect_before_wrap();
+    if *context.bench.hanging() != Hanging::Never {
+        return show_presented(ui, draping, context);
+    }
     if whole.width() < WIDE {
         return show_narrow(ui, draping, context);
     }
@@ -85,6 +89,18 @@ pub(crate) fn show(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext
         show_charts(ui, charts, draping, n_columns);
     });
     ui.advance_cursor_after_rect(whole);
+}
+
+/// What a session presents: the cloth alone, and nothing of what it is or gives.
+fn show_presented(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext<'_>) {
+    let rect = ui.available_rect_before_wrap();
+    if context.bench.hanging().textile().is_none() {
+        ui.painter().rect_filled(rect, 4, Palette::in_ui(ui).floor);
+        return paint_sentence(ui.painter(), rect, "A cloth hangs here in its trial");
+    }
+    let response = ui.interact(rect, Id::unique(CLOTH), Sense::click_and_drag());
+    show_view(ui, &response, rect, draping, context);
+    ui.advance_cursor_after_rect(rect);
 }
 
 fn show_narrow(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext<'_>) {
@@ -142,6 +158,10 @@ fn show_view(
         .collect();
     let touched = (&mut draping.look, &mut draping.hands, &draping.motion);
     touch(ui, response, (&rects, &sights), touched);
+    paint_focus(ui, response);
+    if let (Hanging::Textile(_), Some(sight)) = (context.bench.hanging(), sights.first()) {
+        return paint::cloth(&painter, sight, &unmarked(&frame), &plain(ui, context));
+    }
     follow_strain(draping, &frame);
     for (nth, cloth) in frame.cloths.iter().enumerate() {
         let dress = dress(ui, nth, draping, context);
@@ -158,7 +178,6 @@ fn show_view(
     }
     show_bars(ui, rect, draping, context);
     show_words(ui, rect, draping, &frame);
-    paint_focus(ui, response);
     let words = spoken(&frame);
     ui.ctx()
         .accesskit_node_builder(response.id, |node| node.set_description(words));
@@ -178,11 +197,27 @@ fn dress<'a>(ui: &Ui, nth: usize, draping: &Draping, context: &mut PaneContext<'
         view.picture(&key)
     });
     Dress {
-        palette: Palette::in_ui(ui),
         picture,
-        map: bench.settings.preferences.colour_map,
-        scale: bench.selection.scale,
         strain: draping.look.shows_strain.then_some(draping.look.strain_top),
+        ..plain(ui, context)
+    }
+}
+
+/// A cloth whose contactors do not show what they are given.
+fn unmarked(frame: &Frame) -> ClothFrame {
+    let mut cloth = frame.cloths[0].clone();
+    cloth.amplitudes_um.fill([None; 24]);
+    cloth
+}
+
+/// A cloth that looks like any other.
+fn plain<'a>(ui: &Ui, context: &PaneContext<'_>) -> Dress<'a> {
+    Dress {
+        palette: Palette::in_ui(ui),
+        picture: None,
+        map: context.bench.settings.preferences.colour_map,
+        scale: context.bench.selection.scale,
+        strain: None,
     }
 }
 

@@ -299,8 +299,9 @@ impl ActiveSession {
         if let Some(recording) = self.take_recording()
             && let Some(pending) = &mut self.pending
         {
-            // Where nobody moved there is no path.
-            pending.path = recording.to_path().ok();
+            // Where nobody moved there is no path, nor on a cloth that hangs.
+            let lies = !self.design.composition.presentation.hangs;
+            pending.path = lies.then(|| recording.to_path().ok()).flatten();
             recording.samples().clone_into(&mut pending.samples);
         }
         let (Some(pending), Some(mut session)) = (self.pending.clone(), self.session.take()) else {

@@ -2,7 +2,7 @@
 //! than another.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::bench::error::AppError;
@@ -41,6 +41,12 @@ impl Materials {
     /// The textiles that are presented.
     pub(crate) fn textiles(&self) -> impl Iterator<Item = &Textile> {
         self.loaded.textiles().iter().map(AsRef::as_ref)
+    }
+
+    /// Where they are; `None` is the program.
+    pub(crate) fn library(&self) -> Option<PathBuf> {
+        let library = self.loaded.library();
+        (!library.is_shipped()).then(|| library.root())
     }
 
     /// Loads the textiles of a design whose file is `path`: takes a while.

@@ -19,6 +19,7 @@ pub(crate) mod draft;
 pub(crate) mod experimenter;
 pub(crate) mod form;
 pub(crate) mod guide;
+mod hanging;
 pub(crate) mod held;
 mod in_turn;
 pub(crate) mod materials;

@@ -86,6 +86,8 @@ pub(crate) struct ArrayNow {
     pub(crate) why_not: Option<&'static str>,
     /// What the stylus does that is felt through it, if one is.
     pub(crate) stylus: Option<StylusState>,
+    /// Whether a cloth that hangs is felt through it.
+    pub(crate) is_cloth: bool,
 }
 
 impl ArrayNow {
@@ -109,6 +111,7 @@ impl ArrayNow {
             },
             why_not,
             stylus: live.stylus,
+            is_cloth: live.is_cloth,
         }
     }
 
@@ -180,7 +183,13 @@ impl ActiveSession {
     fn why_not(&self, array: ArrayNow) -> Option<&'static str> {
         let is_led = self.design.composition.presentation.stylus.is_some();
         let no_stylus = if is_led { array.why_no_stylus() } else { None };
-        array.why_not.filter(|_| !self.is_pilot).or(no_stylus)
+        let no_cloth = (self.hanging_textile().is_some() && !array.is_cloth)
+            .then_some("the cloth that hangs is not felt");
+        array
+            .why_not
+            .filter(|_| !self.is_pilot)
+            .or(no_stylus)
+            .or(no_cloth)
     }
 
     /// What the trial waits for, in words.
@@ -266,9 +275,13 @@ impl ActiveSession {
                 let n_ticks = recording.ticks().len();
                 let n_values = 2 * recording.n_contactors() as u64;
                 if let Presenting::Watched(watch) = &mut self.presented.presenting {
-                    for tick in &recording.ticks()[n_seen..] {
+                    for (nth, tick) in recording.ticks().iter().enumerate().skip(n_seen) {
                         let is_felt = tick.sent.is_some() || self.is_pilot;
-                        watch.tick(&presented(tick, (is_felt, n_values)), LEAD_STEPS);
+                        let given_um = recording.amplitudes_um(nth);
+                        watch.tick(
+                            &presented((tick, given_um), (is_felt, n_values)),
+                            LEAD_STEPS,
+                        );
                     }
                 }
                 if recording.has_ended() {
@@ -354,7 +367,11 @@ impl ActiveSession {
 }
 
 /// A tick as proofs look at it; that of a pilot counts as felt.
-fn presented(tick: &RecordedTick, (is_felt, n_values): (bool, u64)) -> PresentedTick {
+fn presented(
+    (tick, given_um): (&RecordedTick, &[[f32; 2]]),
+    (is_felt, n_values): (bool, u64),
+) -> PresentedTick {
+    let strongest_um = given_um.iter().flatten().copied().fold(0.0, f32::max);
     PresentedTick {
         is_sent: is_felt,
         n_missed: tick.tally.n_missed,
@@ -362,6 +379,7 @@ fn presented(tick: &RecordedTick, (is_felt, n_values): (bool, u64)) -> Presented
         n_values,
         position: tick.pose.position,
         speed_mm_per_s: tick.pose.velocity.speed_mm_per_s(),
+        strongest_um: f64::from(strongest_um),
         sequence_step: tick.sequence_step,
     }
 }

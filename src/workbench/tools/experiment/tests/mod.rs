@@ -6,6 +6,7 @@ pub(crate) mod before;
 pub(crate) mod drawn;
 mod felt_by_stylus;
 mod finger;
+mod hanging;
 mod in_turn;
 pub(crate) mod presented;
 

@@ -1,0 +1,27 @@
+//! Trials of a cloth that hangs: the session says what hangs, the Drape pane hangs it and lets it be
+//! felt.
+
+use crate::bench::session::{Hanging, Hung};
+use crate::tools::experiment::active_session::ActiveSession;
+use selvedge_experiment::layout::Layout;
+
+impl ActiveSession {
+    /// The textile that hangs in this trial, if one does.
+    pub(crate) fn hanging_textile(&self) -> Option<&str> {
+        Layout::hanging(&self.design, &self.trial()?.task)
+    }
+
+    /// What hangs, as others need to know of it.
+    pub(crate) fn hanging(&self) -> Hanging {
+        if !self.design.composition.presentation.hangs {
+            return Hanging::Never;
+        }
+        self.hanging_textile().map_or(Hanging::NotNow, |id| {
+            Hanging::Textile(Hung {
+                id: id.to_owned(),
+                library: self.materials.library(),
+                is_felt: self.is_felt(),
+            })
+        })
+    }
+}
