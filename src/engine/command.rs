@@ -43,8 +43,8 @@ pub enum Command {
     SetStylus(Option<Box<StylusDrive>>),
     /// Lets the first two displays feel what is given of a cloth that hangs, from the next tick
     /// on, or the scene again. Sequences go before it; gains of master and bands, limits, mask
-    /// and stops are those of every tick. It outlives scenes. A recording's rows say where the display
-    /// was: whoever wants what it holds on the scene lets the scene be felt first.
+    /// and stops are those of every tick. It outlives scenes. A recording's rows say where the
+    /// display was: whoever wants what it holds on the scene lets the scene be felt first.
     SetCloth(Option<Box<ClothDrive>>),
     /// Levels of the placed textiles that were not known when the scene was prepared, one for each.
     SetLevels(Vec<PlacedLevel>),

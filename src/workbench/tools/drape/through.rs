@@ -52,8 +52,8 @@ impl ThroughDevice {
         notes
     }
 
-    /// Gives the engine what is new of the cloth that hangs at a time, or the scene again; a session
-    /// says itself whether its cloth is felt. Once a frame.
+    /// Gives the engine what is new of the cloth that hangs at a time, or the scene again; a
+    /// session says itself whether its cloth is felt. Once a frame.
     pub(crate) fn follow(&mut self, cloth: Option<(f64, &str, &ClothFrame)>, bench: &mut Bench) {
         self.is_on &= Self::refusal(bench).is_none();
         let hung = bench.hanging().textile();

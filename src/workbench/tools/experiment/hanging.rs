@@ -1,5 +1,5 @@
-//! Trials of a cloth that hangs: the session says what hangs, the Drape pane hangs it and lets it be
-//! felt.
+//! Trials of a cloth that hangs: the session says what hangs, the Drape pane hangs it and lets it
+//! be felt.
 
 use crate::bench::session::{Hanging, Hung};
 use crate::tools::experiment::active_session::ActiveSession;
