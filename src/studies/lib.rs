@@ -22,13 +22,13 @@ mod areal;
 mod bench;
 mod bimorph;
 mod chart;
+mod coding;
 mod drape;
 mod drive_updates;
 mod error;
 #[cfg(feature = "friction")]
 mod friction;
 mod index;
-mod left_out;
 mod listing;
 mod machine;
 mod mds;
@@ -41,11 +41,13 @@ mod record;
 mod rendering;
 mod rounds;
 mod runner;
+mod savings;
 mod shading;
 mod since;
 mod spectral_model;
 mod stability;
 mod staircases;
+mod statistics;
 mod study;
 mod stylus;
 #[cfg(test)]
@@ -70,6 +72,7 @@ pub fn studies() -> Vec<Study> {
         spectral_model::STUDY,
         areal::STUDY,
         drive_updates::STUDY,
+        coding::STUDY,
         velocity::STUDY,
         models::BROWNIAN,
         models::FOURIER,
@@ -93,8 +96,9 @@ pub fn studies() -> Vec<Study> {
         #[cfg(feature = "friction")]
         friction::PICTURES,
         mds::STUDY,
+        statistics::STUDY,
         staircases::STUDY,
-        left_out::STUDY,
+        savings::STUDY,
         stability::STUDY,
     ]
 }
