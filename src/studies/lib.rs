@@ -18,6 +18,7 @@
     expect(clippy::float_cmp, reason = "tests compare exact results on purpose")
 )]
 
+mod adversarial;
 mod areal;
 mod bench;
 mod bimorph;
@@ -28,6 +29,7 @@ mod drive_updates;
 mod error;
 #[cfg(feature = "friction")]
 mod friction;
+mod growth;
 mod index;
 mod listing;
 mod machine;
@@ -64,11 +66,53 @@ pub use rounds::times_alone;
 pub use runner::{Again, Options, Outcome, Report, Standing, choose, run};
 pub use study::{Findings, Row, Study};
 
-/// Every study of the floors below, in the order of the report.
+/// Studies of one subject, which a report tells in one chapter; every other is its own.
+const CHAPTERS: [(&str, &[&str]); 9] = [
+    ("amplitudes", &["rendering", "total-cost", "adversarial"]),
+    ("spectra", &["spectral-model", "areal"]),
+    ("waveforms", &["drive-updates", "coding"]),
+    (
+        "surfaces",
+        &[
+            "brownian",
+            "fourier-coefficients",
+            "restoration",
+            "resampling",
+            "virtual-probe",
+            "readers",
+        ],
+    ),
+    (
+        "pictures",
+        &[
+            "shading",
+            "autocorrelation",
+            "lattice",
+            "weaves",
+            "picture-scale",
+            "picture-route",
+        ],
+    ),
+    ("contact", &["stylus", "stylus-limits"]),
+    ("cloth", &["drape", "drape-stability"]),
+    ("friction", &["griffin-lim", "friction-pictures"]),
+    ("evidence", &["statistics", "mds", "staircases"]),
+];
+
+/// The chapter of a study; `None` of one that is its own.
+fn chapter_of(study: &str) -> Option<&'static str> {
+    let chapter = CHAPTERS
+        .iter()
+        .find(|(_, studies)| studies.contains(&study));
+    chapter.map(|(chapter, _)| *chapter)
+}
+
+/// Every study of the floors below, in the order of the report: chapter by chapter.
 pub fn studies() -> Vec<Study> {
     vec![
         rendering::STUDY,
         rendering::TOTAL,
+        adversarial::STUDY,
         spectral_model::STUDY,
         areal::STUDY,
         drive_updates::STUDY,
@@ -79,6 +123,7 @@ pub fn studies() -> Vec<Study> {
         models::RESTORATION,
         models::RESAMPLING,
         models::PROBE,
+        readers::STUDY,
         shading::STUDY,
         picture::AUTOCORRELATION,
         picture::LATTICE,
@@ -90,13 +135,12 @@ pub fn studies() -> Vec<Study> {
         stylus::LIMITS,
         drape::STUDY,
         drape::STABILITY,
-        readers::STUDY,
         #[cfg(feature = "friction")]
         friction::SPECTRA,
         #[cfg(feature = "friction")]
         friction::PICTURES,
-        mds::STUDY,
         statistics::STUDY,
+        mds::STUDY,
         staircases::STUDY,
         savings::STUDY,
         stability::STUDY,

@@ -77,16 +77,14 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
 }
 
 const NOTES: [&str; 4] = [
-    "Of numbers the error is relative; 10⁻¹³ is promised times their condition and a tenth of their \
-     degrees of freedom or trials together, by which the incomplete beta function loses digits. By \
-     the condition any \
-     rounding of what goes in is magnified. Of rankings it is the largest of any item, as a share of \
-     the largest value; 10⁻¹⁰ logits are promised, at which Newton's method ends. Of posteriors it \
-     is a share of the posterior's standard deviation.",
+    "Of numbers the error is relative; 10⁻¹³ is promised times their condition, by which any \
+     rounding of what goes in is magnified, and a tenth of their degrees of freedom or trials, with \
+     which the incomplete beta function loses digits. Of rankings it is the largest of any item, as \
+     a share of the largest value; 10⁻¹⁰ is promised, at which Newton's method ends. Of posteriors \
+     it is a share of the posterior's standard deviation.",
     "Where one item won every comparison there is no finite ability: the fit has to say so.",
-    "The error of QUEST+ is that of its grid: a sum over an even grid of a smooth function that \
-     falls off at both ends converges faster than any power of the step, until the ends of the grid \
-     or rounding are left.",
+    "The error of QUEST+ is that of its grid: of a coarse one that of the sum, of a fine one that of \
+     its ends at ±20 dB, where this posterior has not quite vanished.",
     "The bootstrap of a mean has a standard error in closed form; with B resamples it is off by \
      1/√(2B) in the rms, four times which is promised.",
 ];
@@ -353,6 +351,6 @@ mod tests {
             .filter(|row| row.method == "QUEST+ mean")
             .filter_map(|row| row.error)
             .collect();
-        assert!(of_grid[0] > 1e-3 && of_grid[4] < 1e-4, "{of_grid:?}");
+        assert!(of_grid[0] > 0.1 && of_grid[4] < 5e-3, "{of_grid:?}");
     }
 }

@@ -30,6 +30,8 @@ pub struct Findings {
     pub plots: Vec<(String, Chart)>,
     /// What a reader should know, a sentence each.
     pub notes: Vec<String>,
+    /// What costs grow with, where that is asked about: what a row's size counts.
+    pub(crate) grows_with: Option<&'static str>,
 }
 
 /// One method with one setting on one case.
@@ -68,6 +70,7 @@ impl Findings {
             rows,
             plots,
             notes: notes.into_iter().map(Into::into).collect(),
+            grows_with: None,
         }
     }
 
