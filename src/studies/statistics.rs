@@ -1,6 +1,5 @@
 //! The study of statistics: tails, quantiles, fits and posteriors against values computed elsewhere
-//! to twenty digits (`tests/truth/statistics.py`, mpmath and NumPy), and a bootstrap against its
-//! closed form.
+//! to twenty digits (`tests/truth/statistics.py`), and a bootstrap against its closed form.
 
 use std::hint::black_box;
 use std::path::Path;
