@@ -31,11 +31,11 @@ const HARMONIC: f64 = 2.0 / std::f64::consts::PI;
 /// Error of every coding against exact arithmetic.
 pub(crate) const STUDY: Study = Study {
     name: "coding",
-    question: "What do whole numbers, few digits and many samples leave of an amplitude, a sine and \
-               a carrier's phase?",
-    reference: "The same numbers before they are coded, in exact arithmetic: single precision times \
-                a whole number has no rounding in double precision, and a carrier's phase is the \
-                remainder of a division of whole numbers.",
+    question: "What do whole numbers, few digits and many samples leave of an amplitude, a sine \
+               and a carrier's phase?",
+    reference: "The same numbers before they are coded, in exact arithmetic: single precision \
+                times a whole number has no rounding in double precision, and a carrier's phase \
+                is the remainder of a division of whole numbers.",
     error: ("largest error", "steps"),
     cost_of: "number",
     run,
@@ -63,8 +63,8 @@ const NOTES: [&str; 5] = [
     "A step is one of the coding: a drive code, a count of 16 bits or of the DAC, of single \
      precision 2⁻²⁴ of full scale; of phases 2⁻²⁴ of the amplitude. Half a step is what rounding \
      costs; rms_steps beside it is 0.289 for errors that are even.",
-    "A 16-bit sample is made in single precision, so that near the middle between two counts it may \
-     round the other way: 0.002 steps more than half are promised.",
+    "A 16-bit sample is made in single precision, so that near the middle between two counts it \
+     may round the other way: 0.002 steps more than half are promised.",
     "MPEG haptics: half a step is that of single precision, another half that of its shortest \
      digits, which a reader in double precision takes as they stand.",
     "The DAC's error is that of the line in the displacement of a free contactor, in counts: no \

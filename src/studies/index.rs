@@ -4,7 +4,8 @@ use super::listing::{cell, table};
 use super::machine::Machine;
 use super::readable::{number, time};
 use super::runner::{Options, Outcome, Report};
-use super::{Effort, Findings, ReportError, Row, Study, chapter_of, chart, growth, write};
+use super::study::chapter_of;
+use super::{Effort, Findings, ReportError, Row, Study, chart, growth, write};
 
 /// Where and how a report was made.
 #[derive(Debug, Clone, Copy)]

@@ -66,47 +66,6 @@ pub use rounds::times_alone;
 pub use runner::{Again, Options, Outcome, Report, Standing, choose, run};
 pub use study::{Findings, Row, Study};
 
-/// Studies of one subject, which a report tells in one chapter; every other is its own.
-const CHAPTERS: [(&str, &[&str]); 9] = [
-    ("amplitudes", &["rendering", "total-cost", "adversarial"]),
-    ("spectra", &["spectral-model", "areal"]),
-    ("waveforms", &["drive-updates", "coding"]),
-    (
-        "surfaces",
-        &[
-            "brownian",
-            "fourier-coefficients",
-            "restoration",
-            "resampling",
-            "virtual-probe",
-            "readers",
-        ],
-    ),
-    (
-        "pictures",
-        &[
-            "shading",
-            "autocorrelation",
-            "lattice",
-            "weaves",
-            "picture-scale",
-            "picture-route",
-        ],
-    ),
-    ("contact", &["stylus", "stylus-limits"]),
-    ("cloth", &["drape", "drape-stability"]),
-    ("friction", &["griffin-lim", "friction-pictures"]),
-    ("evidence", &["statistics", "mds", "staircases"]),
-];
-
-/// The chapter of a study; `None` of one that is its own.
-fn chapter_of(study: &str) -> Option<&'static str> {
-    let chapter = CHAPTERS
-        .iter()
-        .find(|(_, studies)| studies.contains(&study));
-    chapter.map(|(chapter, _)| *chapter)
-}
-
 /// Every study of the floors below, in the order of the report: chapter by chapter.
 pub fn studies() -> Vec<Study> {
     vec![

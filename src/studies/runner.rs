@@ -11,7 +11,8 @@ use super::machine::{self, Machine};
 use super::record::{self, Record};
 use super::rounds;
 use super::since::Since;
-use super::{Bench, Effort, Findings, ReportError, Row, Study, chapter_of, index, write};
+use super::study::chapter_of;
+use super::{Bench, Effort, Findings, ReportError, Row, Study, index, write};
 use selvedge_foundation::progress::{CancelFlag, Progress};
 
 /// What a report is to hold, and where it goes.

@@ -27,8 +27,8 @@ pub(crate) const STUDY: Study = Study {
     name: "statistics",
     question: "How many digits have tails, quantiles, fits and posteriors, far out and where data \
                decide next to nothing, and at what cost?",
-    reference: "Values of mpmath with 25 digits or more and of NumPy's quadrature, stored with the script \
-                that made them; of the bootstrap of a mean its closed form.",
+    reference: "Values of mpmath with 25 digits or more and of NumPy's quadrature, stored with \
+                the script that made them; of the bootstrap of a mean its closed form.",
     error: ("error", "of its scale"),
     cost_of: "number",
     run,
@@ -77,13 +77,13 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
 
 const NOTES: [&str; 4] = [
     "Of numbers the error is relative; 10⁻¹³ is promised times their condition, by which any \
-     rounding of what goes in is magnified, and a tenth of their degrees of freedom or trials, with \
-     which the incomplete beta function loses digits. Of rankings it is the largest of any item, as \
-     a share of the largest value; 10⁻¹⁰ is promised, at which Newton's method ends. Of posteriors \
-     it is a share of the posterior's standard deviation.",
+     rounding of what goes in is magnified, and a tenth of their degrees of freedom or trials, \
+     with which the incomplete beta function loses digits. Of rankings it is the largest of any \
+     item, as a share of the largest value; 10⁻¹⁰ is promised, at which Newton's method ends. Of \
+     posteriors it is a share of the posterior's standard deviation.",
     "Where one item won every comparison there is no finite ability: the fit has to say so.",
-    "The error of QUEST+ is that of its grid: of a coarse one that of the sum, of a fine one that of \
-     its ends at ±20 dB, where this posterior has not quite vanished.",
+    "The error of QUEST+ is that of its grid: of a coarse one that of the sum, of a fine one that \
+     of its ends at ±20 dB, where this posterior has not quite vanished.",
     "The bootstrap of a mean has a standard error in closed form; with B resamples it is off by \
      1/√(2B) in the rms, four times which is promised.",
 ];

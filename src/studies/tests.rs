@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::machine::Machine;
 use super::pareto::tests::row;
+use super::study::{CHAPTERS, chapter_of};
 use super::*;
 use selvedge_chart::{Chart, Series};
 use selvedge_foundation::files::Table;

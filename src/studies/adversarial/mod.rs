@@ -23,8 +23,8 @@ const N_STARTS: usize = 4;
 /// Error against bound, as large as a search can make it.
 pub(crate) const STUDY: Study = Study {
     name: "adversarial",
-    question: "Does any surface, filter, place or motion break the bound that a method of rendering \
-               states before its first tick?",
+    question: "Does any surface, filter, place or motion break the bound that a method of \
+               rendering states before its first tick?",
     reference: "The method reference on the same poses; for the reference itself the formula, \
                 summed with compensation.",
     error: ("error as a share of its bound", ""),
