@@ -12,6 +12,15 @@ use statrs::function::{beta, erf, gamma};
 
 use super::{Computed, Undefined, undefined};
 
+/// Tails below this are far out.
+const FAR: f64 = 1e-3;
+/// No t is larger: its square has to be a number.
+const LARGEST_T: f64 = 1e150;
+/// Most steps towards a quantile.
+const MOST_STEPS: usize = 100;
+/// The longest step up, of the logarithm of t.
+const UP: f64 = 0.35;
+
 /// P(Z > z) of the standard normal.
 pub(crate) fn normal_upper(z: f64) -> f64 {
     // Beyond 38 the tail is smaller than any number; half a square of 0 is no argument.
@@ -66,15 +75,32 @@ pub fn t_quantile_upper(tail: f64, df: f64) -> Computed {
         return undefined(format!("the t of a tail of {tail}"));
     }
     let distribution = student(0.0, df)?;
-    let mut t = -distribution.inverse_cdf(tail);
     let ln_scale = gamma::ln_gamma(0.5 * (df + 1.0))
         - gamma::ln_gamma(0.5 * df)
         - 0.5 * (df * std::f64::consts::PI).ln();
-    for _ in 0..2 {
-        let density = (ln_scale - 0.5 * (df + 1.0) * (t * t / df).ln_1p()).exp();
-        t += (distribution.sf(t) - tail) / density;
+    let ln_density = |t: f64| ln_scale - 0.5 * (df + 1.0) * (t * t / df).ln_1p();
+    if tail >= FAR {
+        let mut t = -distribution.inverse_cdf(tail);
+        for _ in 0..2 {
+            t += (distribution.sf(t) - tail) / ln_density(t).exp();
+        }
+        return finite(t, "t quantile");
     }
-    finite(t, "t quantile")
+    // Over that of t the logarithm of the tail is concave and below the straight line that it ends
+    // in: from where that line has the tail, Newton's method comes down to where the curve has it.
+    let ln_line = ln_scale + 0.5 * (df - 1.0) * df.ln() - tail.ln();
+    let mut t = (ln_line / df).exp().min(LARGEST_T);
+    for _ in 0..MOST_STEPS {
+        let here = distribution.sf(t);
+        let slope = (t.ln() + ln_density(t) - here.ln()).exp();
+        let step = ((here.ln() - tail.ln()) / slope).min(UP);
+        // Where there is no number for the tail, t is far too large.
+        t *= if here > 0.0 { step.exp() } else { 0.5 };
+        if here > 0.0 && step.abs() < 1e-14 {
+            return finite(t, "t quantile");
+        }
+    }
+    undefined(format!("the t of a tail of {tail} with df = {df}"))
 }
 
 fn student(t: f64, df: f64) -> Computed<StudentsT> {
@@ -213,11 +239,22 @@ mod tests {
         assert_eq!(normal_upper(f64::INFINITY), 0.0);
         assert_eq!(normal_lower(1e300), 1.0);
         for df in [1.0, 2.0, 7.0, 8.2, 14.0, 200.0] {
-            for tail in [1e-6, 0.005, 0.025, 0.1, 0.4] {
+            for tail in [1e-100, 1e-20, 1e-6, 0.005, 0.025, 0.1, 0.4] {
                 assert_close(t_upper(t_quantile_upper(tail, df)?, df)?, tail, 1e-10);
             }
         }
         assert_close(t_quantile_upper(0.025, 7.0)?, 2.364_624_251_592_785, 1e-12);
+        // mpmath, tests/truth/statistics.py.
+        assert_close(
+            t_quantile_upper(1e-100, 5.0)?,
+            1.568_392_559_099_337_8e20,
+            1e-12,
+        );
+        assert!(
+            t_quantile_upper(1e-300, 1.0).is_err(),
+            "its square is no number"
+        );
+        assert!(t_quantile_upper(1e-9, 0.01).is_err(), "nor this one's");
         Ok(())
     }
 

@@ -119,6 +119,11 @@ impl Timing {
         self.rounds.n
     }
 
+    /// The median CPU time of each process, s.
+    pub(crate) fn of_processes(&self) -> &[f64] {
+        self.rounds.all()
+    }
+
     /// Whether it is cheaper than another one: in every process that measured both one after the
     /// other, so that the machine's own pace of that minute cancels; `None` where they do not
     /// agree. Of single processes their intervals decide.

@@ -54,7 +54,4 @@ pub enum ReportError {
     /// A study of a floor above cannot do its work.
     #[error("{0}")]
     Study(String),
-    /// The emulated device in this process did not get ready.
-    #[error("the emulated device was not armed within ten seconds; is the machine very busy?")]
-    Device,
 }

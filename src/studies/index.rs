@@ -4,7 +4,8 @@ use super::listing::{cell, table};
 use super::machine::Machine;
 use super::readable::{number, time};
 use super::runner::{Options, Outcome, Report};
-use super::{Effort, Findings, ReportError, Row, Study, chart, write};
+use super::study::chapter_of;
+use super::{Effort, Findings, ReportError, Row, Study, chart, growth, write};
 
 /// Where and how a report was made.
 #[derive(Debug, Clone, Copy)]
@@ -66,7 +67,13 @@ fn text(studies: &[Study], report: &Report, about: &About<'_>) -> String {
         out.push(since.text());
     }
     about_text(about, &mut out);
+    let mut chapter = None;
     for (study, findings, took) in done() {
+        let own = chapter_of(study.name);
+        if let Some(begun) = own.filter(|_| own != chapter) {
+            out.push(format!("## {}\n", chart::titled(begun)));
+        }
+        chapter = own;
         study_text(study, findings, &time(took.as_secs_f64()), &mut out);
     }
     not_run(report, &mut out);
@@ -80,9 +87,10 @@ fn verdicts<'a>(
     out: &mut Vec<String>,
 ) {
     out.push(
-        "| study | it asks | promises kept | worst error where one is promised | took |".to_owned(),
+        "| chapter | study | it asks | promises kept | worst error where one is promised | took |"
+            .to_owned(),
     );
-    out.push("|---|---|---|---|---|".to_owned());
+    out.push("|---|---|---|---|---|---|".to_owned());
     for (study, findings, took) in done {
         let judged = findings.rows.iter().filter_map(Row::is_kept);
         let (n_kept, n) = judged.fold((0, 0), |(n_kept, n), is_kept| {
@@ -102,7 +110,8 @@ fn verdicts<'a>(
         });
         let anchor = chart::titled(study.name).to_lowercase().replace(' ', "-");
         out.push(format!(
-            "| [{}](#{anchor}) | {} | {kept} | {} | {} |",
+            "| {} | [{}](#{anchor}) | {} | {kept} | {} | {} |",
+            chapter_of(study.name).unwrap_or_default(),
             study.name,
             cell(study.question),
             worst.trim_end(),
@@ -186,7 +195,12 @@ fn about_text(about: &About<'_>, out: &mut Vec<String>) {
 
 fn study_text(study: &Study, findings: &Findings, took: &str, out: &mut Vec<String>) {
     let name = study.name;
-    out.push(format!("## {}\n", chart::titled(name)));
+    let level = if chapter_of(name).is_some() {
+        "###"
+    } else {
+        "##"
+    };
+    out.push(format!("{level} {}\n", chart::titled(name)));
     out.push(format!("{}\n", study.question));
     out.push(format!(
         "Reference: {} Took {took}. Numbers: [{name}.csv]({name}.csv).\n",
@@ -196,10 +210,12 @@ fn study_text(study: &Study, findings: &Findings, took: &str, out: &mut Vec<Stri
         let title = cell(&plot.title).replace(['[', ']'], "");
         out.push(format!("![{title}]({file}.png)\n\n[as SVG]({file}.svg)\n"));
     }
-    for note in &findings.notes {
+    let grown = growth::sentences(findings);
+    let notes = || findings.notes.iter().chain(&grown);
+    for note in notes() {
         out.push(format!("- {note}"));
     }
-    if !findings.notes.is_empty() {
+    if notes().next().is_some() {
         out.push(String::new());
     }
     table(study, findings, out);

@@ -18,17 +18,19 @@
     expect(clippy::float_cmp, reason = "tests compare exact results on purpose")
 )]
 
+mod adversarial;
 mod areal;
 mod bench;
 mod bimorph;
 mod chart;
+mod coding;
 mod drape;
 mod drive_updates;
 mod error;
 #[cfg(feature = "friction")]
 mod friction;
+mod growth;
 mod index;
-mod left_out;
 mod listing;
 mod machine;
 mod mds;
@@ -41,11 +43,13 @@ mod record;
 mod rendering;
 mod rounds;
 mod runner;
+mod savings;
 mod shading;
 mod since;
 mod spectral_model;
 mod stability;
 mod staircases;
+mod statistics;
 mod study;
 mod stylus;
 #[cfg(test)]
@@ -62,20 +66,23 @@ pub use rounds::times_alone;
 pub use runner::{Again, Options, Outcome, Report, Standing, choose, run};
 pub use study::{Findings, Row, Study};
 
-/// Every study of the floors below, in the order of the report.
+/// Every study of the floors below, in the order of the report: chapter by chapter.
 pub fn studies() -> Vec<Study> {
     vec![
         rendering::STUDY,
         rendering::TOTAL,
+        adversarial::STUDY,
         spectral_model::STUDY,
         areal::STUDY,
         drive_updates::STUDY,
+        coding::STUDY,
         velocity::STUDY,
         models::BROWNIAN,
         models::FOURIER,
         models::RESTORATION,
         models::RESAMPLING,
         models::PROBE,
+        readers::STUDY,
         shading::STUDY,
         picture::AUTOCORRELATION,
         picture::LATTICE,
@@ -87,14 +94,14 @@ pub fn studies() -> Vec<Study> {
         stylus::LIMITS,
         drape::STUDY,
         drape::STABILITY,
-        readers::STUDY,
         #[cfg(feature = "friction")]
         friction::SPECTRA,
         #[cfg(feature = "friction")]
         friction::PICTURES,
+        statistics::STUDY,
         mds::STUDY,
         staircases::STUDY,
-        left_out::STUDY,
+        savings::STUDY,
         stability::STUDY,
     ]
 }

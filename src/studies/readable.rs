@@ -75,7 +75,10 @@ pub(super) fn bytes(n: u64) -> String {
 }
 
 /// Units that names of columns end with, and how they are written.
-const UNITS: [(&str, &str); 9] = [
+const UNITS: [(&str, &str); 12] = [
+    ("mm_per_s", "mm/s"),
+    ("rad_per_s", "rad/s"),
+    ("deg", "°"),
     ("db", "dB"),
     ("percent", "%"),
     ("um", "µm"),
@@ -89,14 +92,11 @@ const UNITS: [(&str, &str); 9] = [
 
 /// The name of a column as a heading: `mean_offset_db` is `mean offset, dB`.
 pub(super) fn heading(name: &str) -> String {
-    let (stem, last) = name.rsplit_once('_').unwrap_or(("", name));
-    let unit = UNITS
-        .iter()
-        .find(|(key, _)| *key == last && !stem.is_empty());
-    match unit {
-        Some((_, unit)) => format!("{}, {unit}", stem.replace('_', " ")),
-        None => name.replace('_', " "),
-    }
+    let with_unit = UNITS.iter().find_map(|(key, unit)| {
+        let stem = name.strip_suffix(key)?.strip_suffix('_')?;
+        Some(format!("{}, {unit}", stem.replace('_', " ")))
+    });
+    with_unit.unwrap_or_else(|| name.replace('_', " "))
 }
 
 /// A cell as it stands in the CSV, as people read it: long numbers with three digits that count.

@@ -11,6 +11,7 @@ use super::machine::{self, Machine};
 use super::record::{self, Record};
 use super::rounds;
 use super::since::Since;
+use super::study::chapter_of;
 use super::{Bench, Effort, Findings, ReportError, Row, Study, index, write};
 use selvedge_foundation::progress::{CancelFlag, Progress};
 
@@ -130,19 +131,29 @@ impl Report {
     }
 }
 
-/// The studies that are asked for by name, all of them if none is; in their own order.
+/// The studies that are asked for by their name or their chapter's, all of them if none is; in
+/// their own order.
 ///
 /// # Errors
 /// A name that is not known.
 pub fn choose(studies: Vec<Study>, only: &[String]) -> Result<Vec<Study>, ReportError> {
-    let names: Vec<&str> = studies.iter().map(|study| study.name).collect();
+    let mut names: Vec<&str> = studies.iter().map(|study| study.name).collect();
+    for chapter in studies.iter().filter_map(|study| chapter_of(study.name)) {
+        if !names.contains(&chapter) {
+            names.push(chapter);
+        }
+    }
     if let Some(name) = only.iter().find(|name| !names.contains(&name.as_str())) {
         return Err(ReportError::Unknown {
             name: name.clone(),
             known: names.join(", "),
         });
     }
-    let is_wanted = |name: &str| only.is_empty() || only.iter().any(|wanted| wanted == name);
+    let is_wanted = |name: &str| {
+        let is_named =
+            |wanted: &String| wanted == name || chapter_of(name) == Some(wanted.as_str());
+        only.is_empty() || only.iter().any(is_named)
+    };
     Ok(studies
         .into_iter()
         .filter(|study| is_wanted(study.name))

@@ -21,6 +21,47 @@ pub struct Study {
     pub run: fn(&mut Bench<'_>) -> Result<Findings, ReportError>,
 }
 
+/// Studies of one subject, which a report tells in one chapter; every other is its own.
+pub(crate) const CHAPTERS: [(&str, &[&str]); 9] = [
+    ("amplitudes", &["rendering", "total-cost", "adversarial"]),
+    ("spectra", &["spectral-model", "areal"]),
+    ("waveforms", &["drive-updates", "coding"]),
+    (
+        "surfaces",
+        &[
+            "brownian",
+            "fourier-coefficients",
+            "restoration",
+            "resampling",
+            "virtual-probe",
+            "readers",
+        ],
+    ),
+    (
+        "pictures",
+        &[
+            "shading",
+            "autocorrelation",
+            "lattice",
+            "weaves",
+            "picture-scale",
+            "picture-route",
+        ],
+    ),
+    ("contact", &["stylus", "stylus-limits"]),
+    ("cloth", &["drape", "drape-stability"]),
+    ("friction", &["griffin-lim", "friction-pictures"]),
+    ("evidence", &["statistics", "mds", "staircases"]),
+];
+
+/// The chapter of a study; `None` of one that is its own.
+pub(crate) fn chapter_of(study: &str) -> Option<&'static str> {
+    let chapter = CHAPTERS
+        .iter()
+        .find(|(_, studies)| studies.contains(&study));
+    chapter.map(|(chapter, _)| *chapter)
+}
+
 /// What a study found.
 #[derive(Debug, Clone, Default)]
 pub struct Findings {
@@ -30,6 +71,8 @@ pub struct Findings {
     pub plots: Vec<(String, Chart)>,
     /// What a reader should know, a sentence each.
     pub notes: Vec<String>,
+    /// What costs grow with, where that is asked about: what a row's size counts.
+    pub(crate) grows_with: Option<&'static str>,
 }
 
 /// One method with one setting on one case.
@@ -68,6 +111,7 @@ impl Findings {
             rows,
             plots,
             notes: notes.into_iter().map(Into::into).collect(),
+            grows_with: None,
         }
     }
 

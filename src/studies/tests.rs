@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::machine::Machine;
 use super::pareto::tests::row;
+use super::study::{CHAPTERS, chapter_of};
 use super::*;
 use selvedge_chart::{Chart, Series};
 use selvedge_foundation::files::Table;
@@ -68,6 +69,7 @@ fn one_is_wrong(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
             },
         )],
         notes: vec!["A note.".to_owned()],
+        ..Findings::default()
     })
 }
 
@@ -295,6 +297,26 @@ fn studies_are_chosen_by_name_and_nonsense_is_refused() {
     assert_eq!(names(&["b"]).unwrap(), ["b"]);
     let error = names(&["b", "c"]).unwrap_err().to_string();
     assert_eq!(error, "no study is called \"c\"; choose from a, b");
+}
+
+#[test]
+fn a_chapter_stands_for_its_studies_which_follow_each_other() {
+    let chosen = choose(studies(), &["waveforms".to_owned()]).unwrap();
+    let names: Vec<&str> = chosen.iter().map(|study| study.name).collect();
+    assert_eq!(names, ["drive-updates", "coding"]);
+    let all = studies();
+    let mut chapters: Vec<&str> = (all.iter())
+        .map(|study| chapter_of(study.name).unwrap_or(study.name))
+        .collect();
+    chapters.dedup();
+    let mut distinct = chapters.clone();
+    distinct.sort_unstable();
+    distinct.dedup();
+    assert_eq!(distinct.len(), chapters.len(), "{chapters:?}");
+    assert!((12..=16).contains(&chapters.len()), "{chapters:?}");
+    for (chapter, _) in CHAPTERS {
+        assert!(all.iter().all(|study| study.name != chapter), "{chapter}");
+    }
 }
 
 #[test]

@@ -91,7 +91,7 @@ rules! {
         "Sine and cosine are taken only of an angle that changed.";
     OutOfReach "out of reach", "textiles" textiles_out_of_reach:
         "No contactor is placed on a textile whose rectangle the display cannot reach.";
-    Covered "covered", "touches" touches_covered:
+    Covered "covered", "tests of a place" touches_covered:
         "A display that lies wholly on a textile is not asked contactor by contactor.";
     Outside "outside", "touches" touches_outside:
         "A contactor that is off a textile is not evaluated against it.";

@@ -6,7 +6,7 @@ use crate::chart::{chart, lines_by};
 use crate::readable::largest;
 use crate::{Bench, Findings, ReportError, Row, Study};
 use selvedge_chart::Axis;
-use selvedge_foundation::numerics::{Grid, LineFit, PlaneTransform, Random};
+use selvedge_foundation::numerics::{Grid, PlaneTransform, Random};
 use selvedge_textile::picture::Autocorrelation;
 
 /// The largest difference of ρ that the transforms promise.
@@ -54,8 +54,11 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
         lines_by(&rows, |row| &row.method, time),
         "One thread; all shifts up to half the side.",
     );
-    let notes = notes(&rows, most_by_definition);
-    Ok(Findings::new(rows, vec![("time".to_owned(), plot)], notes))
+    let plots = vec![("time".to_owned(), plot)];
+    Ok(Findings {
+        grows_with: Some("number of pixels"),
+        ..Findings::new(rows, plots, notes(most_by_definition))
+    })
 }
 
 /// A way to correlate a picture with itself: its name, and ρ at shifts after all that it computes
@@ -176,16 +179,8 @@ fn time(row: &Row) -> Option<[f64; 2]> {
     Some([row.size?.sqrt(), row.cost?.cpu_s])
 }
 
-/// The exponent e of `time = c·sideᵉ` that fits a way best over the logarithms.
-fn exponent(rows: &[Row], name: &str) -> Option<f64> {
-    let own = rows.iter().filter(|row| row.method == name);
-    let times = own.filter_map(time).filter(|[_, cpu_s]| *cpu_s > 0.0);
-    let logs: Vec<[f64; 2]> = times.map(|point| point.map(f64::ln)).collect();
-    LineFit::through(&logs).map(|line| line.slope)
-}
-
-fn notes(rows: &[Row], most_by_definition: usize) -> Vec<String> {
-    let mut notes = vec![
+fn notes(most_by_definition: usize) -> Vec<String> {
+    vec![
         format!(
             "The definition takes the fourth power of the side, so it is run up to \
              {most_by_definition} px; at larger sides single shifts drawn at random are set \
@@ -198,13 +193,7 @@ fn notes(rows: &[Row], most_by_definition: usize) -> Vec<String> {
         "There is one precision, f64; with pictures of 8 or 16 bits f32 would be the first thing \
          to lose digits, in differences of large sums."
             .to_owned(),
-    ];
-    for (name, _) in WAYS {
-        notes.extend(exponent(rows, name).map(|exponent| {
-            format!("CPU time of {name} grows with the side to the power {exponent:.1}.")
-        }));
-    }
-    notes
+    ]
 }
 
 #[cfg(test)]

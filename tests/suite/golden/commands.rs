@@ -303,12 +303,13 @@ fn golden_experiment() {
 }
 
 /// Studies of errors alone, or whose times stand in columns of their own.
-const STUDIES: [&str; 6] = [
+const STUDIES: [&str; 7] = [
     "spectral-model",
     "velocity",
     "brownian",
     "restoration",
     "virtual-probe",
+    "savings",
     "stability",
 ];
 

@@ -1,4 +1,4 @@
-//! The six scenes that savings are tried on.
+//! The scenes that savings are counted on.
 
 use std::path::Path;
 
@@ -23,7 +23,14 @@ pub(super) struct Case {
     pub(super) poses: Vec<Pose>,
 }
 
-/// The six of them.
+impl Case {
+    /// Contactors of its one display.
+    pub(super) fn n_contactors(&self) -> usize {
+        self.scene.displays[0].offsets.len()
+    }
+}
+
+/// Seven of them.
 pub(super) fn cases(effort: Effort) -> Result<Vec<Case>, ReportError> {
     let n_ticks = effort.pick(12, 80);
     let alone = scene_with(&shipped("denim")?);
@@ -45,7 +52,8 @@ pub(super) fn cases(effort: Effort) -> Result<Vec<Case>, ReportError> {
     let case = |name, scene, poses| Case { name, scene, poses };
     Ok(vec![
         case("one textile at rest", alone.clone(), vec![still; n_ticks]),
-        case("one textile", alone, swing(n_ticks)),
+        case("one textile", alone.clone(), swing(n_ticks)),
+        case("one textile, turning", alone, turning(n_ticks)),
         case("four alternatives", four, across(130.0)),
         case("sixteen", sixteen, across(170.0)),
         case("a hundred overlapping", hundred, swing(n_ticks)),
@@ -85,6 +93,16 @@ fn swing(n_ticks: usize) -> Vec<Pose> {
         (position, Velocity::new(vx, vy))
     };
     poses(n_ticks, 0.5 * step_s(n_ticks), at)
+}
+
+/// The same while the display turns at a turn in two seconds.
+fn turning(n_ticks: usize) -> Vec<Pose> {
+    let mut poses = swing(n_ticks);
+    for pose in &mut poses {
+        pose.angular_rad_per_s = std::f64::consts::PI;
+        pose.angle_deg = 180.0 * pose.t_s;
+    }
+    poses
 }
 
 /// How far apart ticks lie: fewer lie farther apart, so that the way is the same.

@@ -1,0 +1,250 @@
+//! A case in numbers, the scene that it stands for, and how near a method comes to its bound there.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use super::Target;
+use crate::{ReportError, textiles};
+use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation, Velocity};
+use selvedge_foundation::numerics::{Grid, Random};
+use selvedge_render::RenderScene;
+use selvedge_render::array::{
+    Accuracy, ArrayRenderer, ContactInspector, ContactorReading, ErrorBound, Method,
+};
+use selvedge_render::scene::Pose;
+use selvedge_textile::surface::{BIN_SPACING_PER_MM, Direction, HeightMap, Profile, Surface};
+use selvedge_textile::tactile::{Band, Filters, MAX_FREQUENCY_HZ, MAX_SPEED_MM_PER_S};
+
+/// Length of a profile and side of a relief, mm.
+const LENGTH_MM: f64 = 12.0;
+/// The middle of a textile either way, mm.
+const MIDDLE_MM: f64 = 50.0;
+/// Step of a relief, mm.
+const RELIEF_STEP_MM: f64 = 0.06;
+/// What the reference keeps of the formula, dB and as a share of the unfiltered amplitude.
+const ROUNDING: (f64, f64) = (1e-11, 1e-15);
+
+/// A surface, a filter, a place and a motion: a number for each of [`RANGES`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Case(pub(super) [f64; RANGES.len()]);
+
+/// The name of each number, from where to where it goes, and whether evenly over its logarithm:
+/// the width of the filters; how fast the display goes, where it heads, where it is, how it is
+/// turned and how fast it turns; how the textile lies; the bins of its two waves, and how much
+/// weaker the second is; the step of the profile.
+pub(super) const RANGES: [(&str, [f64; 2], bool); 12] = [
+    ("octaves", [0.05, 4.0], true),
+    ("speed_mm_per_s", [0.01, 4400.0], true),
+    ("heading_deg", [0.0, 360.0], false),
+    ("x_mm", [10.0, 90.0], false),
+    ("y_mm", [10.0, 90.0], false),
+    ("angle_deg", [0.0, 360.0], false),
+    ("turn_rad_per_s", [-20.0, 20.0], false),
+    ("tilt_deg", [0.0, 360.0], false),
+    ("bin", [1.0, 400.0], true),
+    ("second_bin", [1.0, 400.0], true),
+    ("range_db", [0.0, 200.0], false),
+    ("step_mm", [1.0 / 460.0, 0.05], true),
+];
+const SPEED: usize = 1;
+const HEADING: usize = 2;
+const TURN: usize = 6;
+const TILT: usize = 7;
+
+impl Case {
+    /// Anywhere.
+    pub(super) fn random(random: &mut Random) -> Self {
+        Self(RANGES.map(|(_, range, is_log)| {
+            let [low, high] = if is_log { range.map(f64::ln) } else { range };
+            let place = random.uniform_in(low, high);
+            if is_log { place.exp() } else { place }
+        }))
+    }
+
+    /// Another case whose numbers are off by up to this share of their ranges; now and then one
+    /// that moves straight along a thread, just where a bin crosses 1 kHz.
+    pub(super) fn beside(&self, reach: f64, random: &mut Random) -> Self {
+        let mut numbers = self.0;
+        for (number, (_, range, is_log)) in numbers.iter_mut().zip(RANGES) {
+            let [low, high] = if is_log { range.map(f64::ln) } else { range };
+            let place = if is_log { number.ln() } else { *number };
+            let place = place + 0.3 * reach * (high - low) * random.normal();
+            let place = place.clamp(low, high);
+            // Half of the numbers stay, so that one can be changed alone.
+            if random.uniform() < 0.5 {
+                *number = if is_log { place.exp() } else { place };
+            }
+        }
+        if random.uniform() < 0.25 {
+            let crossing = (MAX_SPEED_MM_PER_S / numbers[SPEED]).round().max(1.0);
+            let off = 10.0_f64.powf(random.uniform_in(-16.0, -2.0)) * random.normal().signum();
+            numbers[SPEED] = MAX_SPEED_MM_PER_S / crossing * (1.0 + off);
+            for still in [HEADING, TURN, TILT] {
+                numbers[still] = 0.0;
+            }
+        }
+        Self(numbers)
+    }
+
+    /// The larger error of all contactors and bands as a share of the method's bound.
+    pub(super) fn share(&self, target: Target) -> Result<f64, ReportError> {
+        let scene = self.scene(target.is_areal)?;
+        let accuracy = Accuracy::default();
+        let pose = self.pose();
+        let amplitudes = |method: Method| -> Result<(Vec<[f64; 2]>, ErrorBound), ReportError> {
+            let mut renderer = ArrayRenderer::prepare(&scene, method, &accuracy)?;
+            let bound = renderer.bound();
+            let felt = textiles::amplitudes_um(&mut renderer, std::slice::from_ref(&pose));
+            Ok((felt.collect(), bound))
+        };
+        let (found, mut bound) = amplitudes(target.method)?;
+        let exact = if target.method == Method::Reference {
+            (bound.level_db, bound.floor) = ROUNDING;
+            by_formula(&scene, &pose)
+        } else {
+            amplitudes(Method::Reference)?.0
+        };
+        let unfiltered_um = unfiltered_um(&scene.textiles[0].surface);
+        let pairs = found.iter().flatten().zip(exact.iter().flatten());
+        let shares = pairs.map(|(a, exact)| share_of(&bound, unfiltered_um, [*a, *exact]));
+        Ok(shares.fold(0.0, f64::max))
+    }
+
+    fn pose(&self) -> Pose {
+        let [
+            _,
+            speed_mm_per_s,
+            heading_deg,
+            x_mm,
+            y_mm,
+            angle_deg,
+            turn,
+            ..,
+        ] = self.0;
+        let (sin, cos) = heading_deg.to_radians().sin_cos();
+        Pose {
+            position: Point::new(x_mm, y_mm),
+            velocity: Velocity::new(speed_mm_per_s * cos, speed_mm_per_s * sin),
+            angle_deg,
+            angular_rad_per_s: turn,
+            ..Pose::default()
+        }
+    }
+
+    fn scene(&self, is_areal: bool) -> Result<RenderScene, ReportError> {
+        let surface = if is_areal {
+            self.areal()?
+        } else {
+            self.profile()?
+        };
+        let mut scene = textiles::scene_with(&surface);
+        scene.filters = Filters::LogGaussian { octaves: self.0[0] };
+        // Turned about its middle, so that the display stays on it.
+        let rotation = Rotation::from_degrees(self.0[TILT]);
+        let turned = rotation.turn(Displacement::new(MIDDLE_MM, MIDDLE_MM));
+        scene.textiles[0].workspace_from_textile = Frame {
+            origin: Point::new(MIDDLE_MM - turned.x_mm, MIDDLE_MM - turned.y_mm),
+            rotation,
+        };
+        Ok(scene)
+    }
+
+    /// Height of both waves, µm.
+    fn height_um(&self, x_mm: f64) -> f64 {
+        let [.., bin, second_bin, range_db, _] = self.0;
+        let wave = |bin: f64| (TAU * BIN_SPACING_PER_MM * bin * x_mm).cos();
+        10.0 * (wave(bin) + 10.0_f64.powf(-range_db / 20.0) * wave(second_bin))
+    }
+
+    fn profile(&self) -> Result<Arc<Surface>, ReportError> {
+        let failed = textiles::wrong("an adversarial profile");
+        let [.., step_mm] = self.0;
+        let n = (0_u32..).map(|i| f64::from(i) * step_mm);
+        let heights = n.take_while(|x_mm| *x_mm < LENGTH_MM);
+        let heights = heights.map(|x_mm| self.height_um(x_mm)).collect();
+        let profile = Profile::new(step_mm, heights).map_err(&failed)?;
+        let surface = Surface::from_profiles([Some(profile), None, None, None], 0.0);
+        Ok(Arc::new(surface.map_err(|(_, error)| failed(error))?))
+    }
+
+    fn areal(&self) -> Result<Arc<Surface>, ReportError> {
+        let failed = textiles::wrong("an adversarial relief");
+        let n = 200;
+        let at = |i: usize| i as f64 * RELIEF_STEP_MM;
+        let along: Vec<f64> = (0..n).map(|i| self.height_um(at(i))).collect();
+        let mut heights_um = Grid::filled(n, n, 0.0);
+        for (row, across) in along.iter().enumerate() {
+            for (height, along) in heights_um.row_mut(row).iter_mut().zip(&along) {
+                *height = along + across;
+            }
+        }
+        let map = HeightMap::new(heights_um, [RELIEF_STEP_MM; 2]).map_err(&failed)?;
+        let surface = Surface::areal(&map, 0.0);
+        Ok(Arc::new(surface.map_err(|(_, error)| failed(error))?))
+    }
+}
+
+/// An error as a share of what the bound allows, of an amplitude and the reference's.
+fn share_of(bound: &ErrorBound, unfiltered_um: f64, [a, exact]: [f64; 2]) -> f64 {
+    let allowed =
+        exact * (10.0_f64.powf(bound.level_db / 20.0) - 1.0) + bound.floor * unfiltered_um;
+    let off = (a - exact).abs();
+    let of_amplitude = if off > 0.0 { off / allowed } else { 0.0 };
+    if exact >= 1e-3 * unfiltered_um {
+        of_amplitude.max((20.0 * (a / exact).log10()).abs() / bound.level_db)
+    } else {
+        of_amplitude
+    }
+}
+
+/// `√(2 Σ_d Σ_k P)`, the largest over points, and over the directions along either thread.
+fn unfiltered_um(surface: &Surface) -> f64 {
+    let of_direction = |direction: &Direction| {
+        let spectra = surface.spectra(*direction);
+        let powers = (0..spectra.n_points()).map(|point| spectra.powers_um2(point).iter().sum());
+        powers.fold(0.0, f64::max)
+    };
+    let of_axis = |both: &[Direction]| both.iter().map(of_direction).fold(0.0, f64::max);
+    let sum: f64 = Direction::ALL.chunks(2).map(of_axis).sum();
+    (2.0 * sum).sqrt()
+}
+
+/// The amplitudes of all contactors by the formula, sums with Neumaier's compensation.
+fn by_formula(scene: &RenderScene, pose: &Pose) -> Vec<[f64; 2]> {
+    let mut readings = Vec::new();
+    ContactInspector::new(scene).readings_into(0, pose, &mut readings);
+    let surface = &scene.textiles[0].surface;
+    let of_band = |contactor: &ContactorReading, band: Band| -> f64 {
+        let Some(reading) = contactor.reading else {
+            return 0.0;
+        };
+        let (mut sum, mut lost) = (0.0_f64, 0.0_f64);
+        for (direction, component) in reading.directions.iter().zip(reading.velocity_mm_per_s) {
+            let Some(direction) = *direction else {
+                continue;
+            };
+            let powers = surface
+                .spectra(direction)
+                .powers_um2(reading.points[direction.index()]);
+            for (k, power_um2) in (1..).zip(powers) {
+                let hz = component.abs() * BIN_SPACING_PER_MM * f64::from(k);
+                if hz < MAX_FREQUENCY_HZ {
+                    let term = power_um2 * scene.filters.power_gain(band, hz);
+                    let total = sum + term;
+                    let [large, small] = if sum >= term {
+                        [sum, term]
+                    } else {
+                        [term, sum]
+                    };
+                    lost += (large - total) + small;
+                    sum = total;
+                }
+            }
+        }
+        (2.0 * (sum + lost)).sqrt()
+    };
+    readings
+        .iter()
+        .map(|contactor| Band::ALL.map(|band| of_band(contactor, band)))
+        .collect()
+}
