@@ -9,6 +9,7 @@ use super::autocorrelation::correlated_part;
 use super::basis::{Place, length};
 use super::overlay::{overlay, range};
 use super::relief::{Relief, object};
+use super::scale::PictureScale;
 use selvedge_foundation::files::{FileError, GrayImage, TableWriter, to_json_string};
 use selvedge_foundation::numerics::Grid;
 
@@ -32,6 +33,8 @@ pub const FILE_NAMES: [&str; 8] = [
 pub struct About {
     /// Pixels of the picture to a millimetre, if known.
     pub px_per_mm: Option<f64>,
+    /// How that is known.
+    pub scale: Option<PictureScale>,
     /// The picture's name.
     pub image: String,
     /// The part that was analysed: x, y, width, height.
@@ -145,6 +148,7 @@ fn reported(analysis: &Analysis, about: &About) -> impl Serialize {
             correlated_part: correlated_part(width, height),
         },
         px_per_mm: about.px_per_mm,
+        scale: about.scale,
         lattice: lattice,
         thread_grid: lattice.and_then(|l| l.thread_grid).map(|grid| object! {
             p1_px: grid.p1,
