@@ -196,6 +196,7 @@ fn show(library: &Library, id: &str) -> Result<(), CliError> {
         ),
         ("level", format!("{level} dB re 1 µm")),
     ];
+    rows.extend(manifest.source.assumed().map(|words| ("assumed", words)));
     if let Some(band) = &manifest.uncertainty {
         rows.extend(
             band.words()

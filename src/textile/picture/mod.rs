@@ -29,6 +29,7 @@ pub mod shading;
 mod significant;
 mod source;
 mod tile;
+mod unwarp;
 mod weave_name;
 
 #[cfg(test)]
@@ -51,6 +52,7 @@ pub use shading::ShadingError;
 pub use significant::{Significant, SignificantMaxima};
 pub use source::Picture;
 pub use tile::{Rectangle, Tile};
+pub use unwarp::Unwarped;
 
 use selvedge_foundation::files::FileError;
 use selvedge_foundation::progress::Cancelled;

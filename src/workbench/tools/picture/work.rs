@@ -221,7 +221,7 @@ fn cloth(
     };
     let images = found.as_deref().ok().map(|tiled| {
         let corner = tiled.flat_part.map_or([0, 0], |([x, y, ..], _)| [x, y]);
-        let part = images::part(luminance, &tiled.lattice, corner);
+        let part = images::part(tiled.laid(luminance), &tiled.lattice, corner);
         let [again, rest] = images::synthesized(&part, &tiled.tile, n_threads());
         [images::with_lattice(&part, &tiled.lattice), again, rest]
     });
