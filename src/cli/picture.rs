@@ -32,7 +32,8 @@ pub(super) struct PictureArgs {
     dpi: Option<f64>,
     /// Threads to a centimetre, warp and weft, or one number if they are alike: the scale by the
     /// thread grid that is found
-    #[arg(long, value_name = "WARP,WEFT", value_parser = threads, conflicts_with_all = ["dpi", "px_per_mm"])]
+    #[arg(long, value_name = "WARP,WEFT", value_parser = threads)]
+    #[arg(conflicts_with_all = ["dpi", "px_per_mm"])]
     threads_per_cm: Option<Threads>,
     /// The part to look at: its left, its top, its width and height in pixels
     #[arg(long, value_name = "X,Y,W,H", value_parser = region)]

@@ -75,7 +75,7 @@ pub(super) struct ImportArgs {
     #[arg(long, value_name = "SPREADS", value_parser = spreads)]
     despike: Option<f64>,
     /// What is taken off: the best plane if not said, nothing with --periodic
-    #[arg(long, value_name = "WHAT", value_parser = one_of(Levelling::ALL.map(|level| (level.word(), level))))]
+    #[arg(long, value_name = "WHAT", value_parser = one_of(levels()))]
     level: Option<Levelling>,
     /// Where the strokes cross, mm from the lower left corner (the middle if not said); once for
     /// every textile
@@ -115,6 +115,10 @@ pub(super) struct ConvertArgs {
 
 fn unit(word: &str) -> Result<LengthUnit, String> {
     LengthUnit::of(word).ok_or_else(|| "give m, cm, mm, um, nm, pm or angstrom".to_owned())
+}
+
+fn levels() -> [(&'static str, Levelling); Levelling::ALL.len()] {
+    Levelling::ALL.map(|level| (level.word(), level))
 }
 
 /// Two corners of a part, mm.

@@ -326,3 +326,6 @@ fn extent(key: &str, text: &str) -> Option<(f64, LengthUnit)> {
     let number: f64 = number.parse().ok()?;
     Some((number, unit)).filter(|(number, _)| *number > 0.0 && number.is_finite())
 }
+
+#[cfg(test)]
+mod tests;
