@@ -196,7 +196,7 @@ fn every_step_of_preparing_a_map_is_kept_and_runs_again_bit_for_bit() {
     let import = ["textile", "import", "map.txt", "--out", "library/mine"];
     let steps = [
         "--crop",
-        "0,0,9,8",
+        "0,2,9,10",
         "--despike",
         "9",
         "--level",
@@ -208,7 +208,7 @@ fn every_step_of_preparing_a_map_is_kept_and_runs_again_bit_for_bit() {
     assert!(outcome.err.contains("1 points are spikes"), "{outcome:?}");
     let manifest = lab.read("library/mine/textile.toml");
     for part in [
-        "crop_mm = [0.0, 0.0, 9.0, 8.0]",
+        "crop_mm = [0.0, 2.0, 9.0, 10.0]",
         "despike = 9.0",
         "level = \"quadratic\"",
         "n_missing = 1",
@@ -253,8 +253,8 @@ fn a_map_with_more_than_half_its_points_missing_is_refused() {
     let empty = vec!["nan"; 220].join("\t");
     let half = |n: usize| {
         let lost = std::iter::repeat_n(empty.clone(), n);
-        let lines: Vec<String> = lost.chain(rows[n..].iter().cloned()).collect();
-        lines.join("\n")
+        let there = rows[n..].iter().cloned();
+        there.chain(lost).collect::<Vec<_>>().join("\n")
     };
     let import = ["textile", "import", "map.txt", "--out", "mine"];
     lab.write("map.txt", half(101));

@@ -375,7 +375,7 @@ fn what_cannot_go_together_is_refused_in_one_line() {
     let lab = Lab::new();
     lab.write("weave.png", lit_weave());
     for (more, what) in [
-        (&["--textile", "a"][..], "--px-per-mm or --dpi"),
+        (&["--textile", "a"][..], "--px-per-mm, --dpi or"),
         (
             &["--textile", "a", "--dpi", "600"],
             "--relief-um or --smd-um",

@@ -1,9 +1,11 @@
 //! What is done to measured heights before a tester is drawn over them: a part is taken, spikes
 //! are taken for missing, and what bends or leans slowly is taken off.
 
+use std::ops::Range;
+
 use super::HeightMap;
 use selvedge_foundation::named;
-use selvedge_foundation::numerics::{Grid, in_pieces, median, n_threads};
+use selvedge_foundation::numerics::{Grid, in_pieces, median, n_threads, quantile};
 use serde::{Deserialize, Serialize};
 
 /// What is to be done to measured heights, in this order.
@@ -35,23 +37,32 @@ named! {
     pub fn word;
 }
 
-/// From a median absolute deviation to the standard deviation of what is normal.
-const SIGMA_OF_MAD: f64 = 1.4826;
+/// The share of deviations that the spread is read at, and how many standard deviations that is of
+/// what is normal. High, so that on what is smooth the steepest places are none.
+const SHARE: f64 = 0.9;
+const SIGMAS: f64 = 1.645;
 /// Points on either side of one whose median it is compared with.
 const AROUND: usize = 2;
 /// Deviations that the spread is taken of, about.
 const MAX_DEVIATIONS: usize = 1 << 20;
 
+/// The indices around one, as many on either side: fewer near an end, where one-sided medians would
+/// take a slope for a spike, but not itself alone.
+fn near(index: usize, n: usize) -> Range<usize> {
+    let reach = AROUND.min(index).min(n - 1 - index).max(1);
+    index.saturating_sub(reach)..(index + reach + 1).min(n)
+}
+
 /// Takes heights for missing that lie more than so many robust standard deviations from the median
-/// of the 5 × 5 points around them: 1.4826 times the median of such deviations over all points, or
+/// of the 5 × 5 points around them: what nine of ten such deviations do not exceed, over 1.645, or
 /// their mean where most are 0. How many they were.
 pub(crate) fn despiked(heights: &Grid<f64>, spreads: f64) -> (Grid<f64>, usize) {
     let (width, height) = (heights.width(), heights.height());
     let mut off = heights.clone();
     let work = |around: &mut Vec<f64>, row: usize, values: &mut [f64]| {
-        let rows = row.saturating_sub(AROUND)..(row + AROUND + 1).min(height);
+        let rows = near(row, height);
         for (column, value) in values.iter_mut().enumerate() {
-            let columns = column.saturating_sub(AROUND)..(column + AROUND + 1).min(width);
+            let columns = near(column, width);
             around.clear();
             let near = rows
                 .clone()
@@ -65,8 +76,8 @@ pub(crate) fn despiked(heights: &Grid<f64>, spreads: f64) -> (Grid<f64>, usize) 
     let known = off.values().iter().step_by(every).copied();
     let mut known: Vec<f64> = known.filter(|off| !off.is_nan()).collect();
     let mean = known.iter().sum::<f64>() / known.len().max(1) as f64;
-    let middle = SIGMA_OF_MAD * median(&mut known);
-    let spread = if middle > 0.0 { middle } else { mean };
+    let robust = quantile(&mut known, SHARE) / SIGMAS;
+    let spread = if robust > 0.0 { robust } else { mean };
     let (mut left, mut n) = (heights.clone(), 0);
     for (height, off) in left.values_mut().iter_mut().zip(off.values()) {
         if *off > spreads * spread {

@@ -27,7 +27,7 @@ use selvedge_textile::picture::{Directions, Relief};
 /// Room for the name of a field, points.
 const NAME: f32 = 52.0;
 /// Width of a typed number, points.
-const NUMBER: f32 = 72.0;
+const NUMBER: f32 = 56.0;
 
 /// Shows the steps.
 pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) {
