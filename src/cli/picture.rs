@@ -9,13 +9,12 @@ use super::picture_relief::{Origin, ReliefArgs, describe_none};
 use super::terminal::{self, with_meter};
 use super::{CliError, output};
 use selvedge_foundation::progress::Progress;
-use selvedge_foundation::quantity::fixed;
+use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_textile::n_threads;
 use selvedge_textile::picture::{
-    self, About, Analysis, AnalysisOptions, DirectionOptions, EvenLight, Found, Picture, Place,
+    self, About, Analysis, AnalysisOptions, DirectionOptions, EvenLight, Found, Picture,
+    PictureScale, Place, Unwarped,
 };
-
-const MM_PER_INCH: f64 = 25.4;
 
 /// A picture, and what is known about it.
 #[derive(Debug, Args)]
@@ -31,6 +30,11 @@ pub(super) struct PictureArgs {
     /// Pixels to an inch, as scanners say it
     #[arg(long, value_name = "D", value_parser = positive)]
     dpi: Option<f64>,
+    /// Threads to a centimetre, warp and weft, or one number if they are alike: the scale by the
+    /// thread grid that is found
+    #[arg(long, value_name = "WARP,WEFT", value_parser = threads)]
+    #[arg(conflicts_with_all = ["dpi", "px_per_mm"])]
+    threads_per_cm: Option<Threads>,
     /// The part to look at: its left, its top, its width and height in pixels
     #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
     region: Option<[usize; 4]>,
@@ -55,6 +59,17 @@ pub(super) struct PictureArgs {
 /// Four corners in pixels.
 #[derive(Debug, Clone, Copy)]
 struct Corners([Place; 4]);
+
+/// Threads to a centimetre, warp and weft.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Threads([f64; 2]);
+
+fn threads(text: &str) -> Result<Threads, String> {
+    let both = numbers(text).or_else(|| numbers(text).map(|[both]| [both; 2]));
+    both.filter(|both: &[f64; 2]| both.iter().all(|n| (0.5..=1000.0).contains(n)))
+        .map(Threads)
+        .ok_or_else(|| "give one or two numbers from 0.5 to 1000, such as 24 or 24,20".to_owned())
+}
 
 pub(super) fn positive(text: &str) -> Result<f64, String> {
     let number = text
@@ -94,15 +109,32 @@ fn light(text: &str) -> Result<EvenLight, String> {
 }
 
 impl PictureArgs {
-    fn px_per_mm(&self) -> Option<f64> {
-        let of_dpi = || self.dpi.map(|dpi| dpi / MM_PER_INCH);
-        self.px_per_mm.or_else(of_dpi)
+    fn scale(&self) -> Option<PictureScale> {
+        let of_dpi = || self.dpi.map(PictureScale::Dpi);
+        let of_threads = || self.threads_per_cm.map(|n| PictureScale::ThreadsPerCm(n.0));
+        let stated = self.px_per_mm.map(PictureScale::PxPerMm);
+        stated.or_else(of_dpi).or_else(of_threads)
     }
 
-    fn about(&self) -> About {
+    /// Pixels to a millimetre. Threads that were counted must be found.
+    fn px_per_mm(&self, analysis: &Analysis) -> Result<Option<f64>, CliError> {
+        let Some(scale) = self.scale() else {
+            return Ok(None);
+        };
+        let found = match (scale.stated_px_per_mm(), &analysis.found) {
+            (Some(px_per_mm), _) => Ok(px_per_mm),
+            (None, Ok(found)) => scale.px_per_mm(&found.lattice).map_err(|e| e.to_string()),
+            (None, Err(reason)) => Err(format!("no threads to count: {reason}; give --dpi")),
+        };
+        let wrong = |line| CliError::Input(format!("{}: {line}", self.image.display()));
+        found.map(Some).map_err(wrong)
+    }
+
+    fn about(&self, px_per_mm: Option<f64>) -> About {
         let name = self.image.file_name().unwrap_or_default();
         About {
-            px_per_mm: self.px_per_mm(),
+            px_per_mm,
+            scale: self.scale(),
             image: name.to_string_lossy().into_owned(),
             region: self.region,
             corners: self.corners.map(|corners| corners.0),
@@ -113,8 +145,7 @@ impl PictureArgs {
 
 /// Analyses the picture and writes the files.
 pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
-    let px_per_mm = args.px_per_mm();
-    args.relief.check(px_per_mm)?;
+    args.relief.check(args.scale())?;
     let bytes = selvedge_textile::read_measurement(&args.image)?;
     let loaded = Picture::load(&bytes, &args.image)?;
     let origin = Origin::of(&args.image, &bytes);
@@ -130,16 +161,18 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
     };
     let work = |progress: &mut Progress<'_>| -> Result<_, CliError> {
         let analysis = Analysis::of(&chosen, &options, progress)?;
-        let of = (&origin, px_per_mm);
+        let px_per_mm = args.px_per_mm(&analysis)?;
+        let of = (&origin, args.scale().zip(px_per_mm));
         let felt = analysis.found.as_ref().ok();
         let ground = &analysis.luminance;
         let felt = felt.map(|found| args.relief.felt((ground, found), of, n_threads, progress));
         let felt = felt.transpose()?;
-        Ok((analysis, felt))
+        Ok((analysis, px_per_mm, felt))
     };
-    let (analysis, felt) = with_meter("picture", work)??;
-    let mut about = args.about();
-    let mut described = summary(&analysis, px_per_mm, &args.out);
+    let (analysis, px_per_mm, felt) = with_meter("picture", work)??;
+    let mut about = args.about(px_per_mm);
+    let scale = (px_per_mm, args.threads_per_cm.is_some());
+    let mut described = summary(&analysis, scale, &args.out);
     match felt {
         Some(Ok(felt)) => {
             described.push_str(&args.relief.finish(&felt, &args.out)?);
@@ -192,6 +225,17 @@ fn warnings(analysis: &Analysis) -> Vec<String> {
                     brightness says nothing of its relief";
         lines.push(line.to_owned());
     }
+    if let Some(Unwarped {
+        bend_px, stretch, ..
+    }) = &found.unwarped
+    {
+        lines.push(format!(
+            "the cloth is bent: {} from straight at most, local stretch {}; it was laid straight, \
+             and the rest is of that",
+            with_unit(*bend_px, 1, "px"),
+            with_unit(100.0 * stretch, 1, "%"),
+        ));
+    }
     if found.drifts() {
         let (level, explained) = (
             fixed(found.lattice.level, 2),
@@ -215,7 +259,11 @@ fn warnings(analysis: &Analysis) -> Vec<String> {
     lines
 }
 
-fn summary(analysis: &Analysis, px_per_mm: Option<f64>, out: &Path) -> String {
+fn summary(
+    analysis: &Analysis,
+    (px_per_mm, is_counted): (Option<f64>, bool),
+    out: &Path,
+) -> String {
     let out = out.display();
     let Found {
         lattice,
@@ -230,8 +278,13 @@ fn summary(analysis: &Analysis, px_per_mm: Option<f64>, out: &Path) -> String {
         let [x, y] = [x, y].map(|px| fixed(px / scale, decimals));
         format!("({x}, {y}) {unit}")
     };
+    let counted = px_per_mm
+        .filter(|_| is_counted)
+        .map_or_else(String::new, |px| {
+            format!("{out}: {} by the threads\n", with_unit(px, 3, "px/mm"))
+        });
     format!(
-        "{out}: repeats by {} and {}{}, confidence {}, explains {} of the variance\n",
+        "{out}: repeats by {} and {}{}, confidence {}, explains {} of the variance\n{counted}",
         vector(lattice.p1_px),
         vector(lattice.p2_px),
         lattice
@@ -255,6 +308,11 @@ mod tests {
         assert_eq!(corners("0,0,9,0,9,8,0,8").unwrap().0[2], [9.0, 8.0]);
         assert!(corners("0,0,9,0,9,8,0,NaN").is_err(), "not a number");
         assert_eq!(light("12.5"), Ok(EvenLight::Radius(12.5)));
+        assert_eq!(threads("24"), Ok(Threads([24.0; 2])));
+        assert_eq!(threads("24, 20.5"), Ok(Threads([24.0, 20.5])));
+        for text in ["0", "24,", "1,2,3", "NaN", "1e9"] {
+            assert!(threads(text).is_err(), "{text}");
+        }
         assert!(
             light("bright").is_err() && positive("-1").is_err() && positive("inf").is_err(),
             ""

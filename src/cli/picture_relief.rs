@@ -13,7 +13,7 @@ use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_textile::picture::shading::{Light, Method, ShadingError, ShadingOptions};
-use selvedge_textile::picture::{Found, Relief};
+use selvedge_textile::picture::{Found, PictureScale, Relief};
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{
     BuiltFile, Construction, Description, Ensemble, HeightScale, Lamp, PictureTextile,
@@ -111,17 +111,18 @@ impl<'a> Origin<'a> {
 
 impl ReliefArgs {
     /// Refuses what cannot go together, before anything is reckoned.
-    pub(super) fn check(&self, px_per_mm: Option<f64>) -> Result<(), CliError> {
+    pub(super) fn check(&self, scale: Option<PictureScale>) -> Result<(), CliError> {
         let refuse = |line: &str| Err(CliError::Input(line.to_owned()));
         let has_height = self.relief_um.is_some() || self.smd_um.is_some();
-        if self.textile.is_some() && px_per_mm.is_none() {
-            return refuse("--textile needs the picture's scale; give --px-per-mm or --dpi");
+        let mend = "give --px-per-mm, --dpi or --threads-per-cm";
+        if self.textile.is_some() && scale.is_none() {
+            return refuse(&format!("--textile needs the picture's scale; {mend}"));
         }
         if self.textile.is_some() && !has_height {
             return refuse("--textile needs the height of the cloth; give --relief-um or --smd-um");
         }
-        if self.smd_um.is_some() && px_per_mm.is_none() {
-            return refuse("--smd-um needs the picture's scale; give --px-per-mm or --dpi");
+        if self.smd_um.is_some() && scale.is_none() {
+            return refuse(&format!("--smd-um needs the picture's scale; {mend}"));
         }
         let options = self.options();
         let is_linear = options.method == Method::Linear && self.iterations.is_some();
@@ -152,7 +153,7 @@ impl ReliefArgs {
         }
     }
 
-    fn about(&self, origin: &Origin<'_>, px_per_mm: Option<f64>) -> PictureTextile {
+    fn about(&self, origin: &Origin<'_>, scaled: Option<(PictureScale, f64)>) -> PictureTextile {
         let name = origin.path.file_name().unwrap_or_default();
         let stem = origin.path.file_stem().unwrap_or_default();
         let scale = match (self.relief_um, self.smd_um) {
@@ -168,7 +169,8 @@ impl ReliefArgs {
         PictureTextile {
             name: Description::of(&called).name,
             construction: self.construction,
-            px_per_mm: px_per_mm.unwrap_or(0.0),
+            px_per_mm: scaled.map_or(0.0, |(_, px_per_mm)| px_per_mm),
+            px_scale: scaled.map(|(scale, _)| scale),
             scale,
             picture: Some([name.to_string_lossy().into_owned(), origin.sha256.clone()]),
             light_is_estimated: self.light.is_none(),
@@ -185,10 +187,11 @@ impl ReliefArgs {
     pub(super) fn felt(
         &self,
         (luminance, found): (&Grid<f64>, &Found),
-        (origin, px_per_mm): (&Origin<'_>, Option<f64>),
+        (origin, scaled): (&Origin<'_>, Option<(PictureScale, f64)>),
         n_threads: usize,
         progress: &mut Progress<'_>,
     ) -> Result<Result<Felt, String>, CliError> {
+        let px_per_mm = scaled.map(|(_, px_per_mm)| px_per_mm);
         let whole = (self.relief_of == Ground::Picture).then_some(luminance);
         let brightness = found.brightness(whole, px_per_mm, n_threads);
         let mut relief = match Relief::of(brightness, self.light, &self.options(), progress) {
@@ -200,7 +203,7 @@ impl ReliefArgs {
             }
             Err(error) => return Ok(Err(error.to_string())),
         };
-        let mut about = self.about(origin, px_per_mm);
+        let mut about = self.about(origin, scaled);
         about.size_px = Some(relief.brightness.size_px);
         let advice = match &self.textile {
             Some(_) => {

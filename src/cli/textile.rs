@@ -6,7 +6,7 @@ use clap::{Args, Subcommand};
 
 use super::output::TableOut;
 use super::textile_catalogue::{self, CatalogueArgs};
-use super::textile_import::{self, ConvertArgs, ImportArgs};
+use super::textile_import::{self, ConvertArgs, ImportArgs, RebuildArgs};
 use super::textile_kes::{self, ImportKesArgs};
 use super::textile_levels::levels;
 use super::textile_make::{self, BuildArgs, MakeCommand};
@@ -68,6 +68,9 @@ pub(super) enum TextileCommand {
     LearnFourier(LearnArgs),
     /// Make a textile of measured heights: X3P, SUR, GWY, GSF, NPY, TMD, FRT, PNG, TIFF or text
     Import(ImportArgs),
+    /// Make a textile again as its manifest says: from its recipe, or from its file of heights by
+    /// the steps that are kept there; the same bytes if nothing was changed
+    Rebuild(RebuildArgs),
     /// Write measured heights in another format: .x3p, .gsf, .npy, .png or .tif
     Convert(ConvertArgs),
     /// A textile from files of the Kawabata surface tester (KES-FB4)
@@ -121,6 +124,7 @@ pub(super) fn run(command: &TextileCommand) -> Result<(), CliError> {
         TextileCommand::Make(command) => textile_make::run(command),
         TextileCommand::LearnFourier(args) => textile_models::learn(args),
         TextileCommand::Import(args) => textile_import::import(args),
+        TextileCommand::Rebuild(args) => textile_import::rebuild(args),
         TextileCommand::Convert(args) => textile_import::convert(args),
         TextileCommand::ImportKes(args) => textile_kes::run(args),
         TextileCommand::Catalogue { args, from } => textile_catalogue::run(&from.open()?, args),
@@ -192,6 +196,7 @@ fn show(library: &Library, id: &str) -> Result<(), CliError> {
         ),
         ("level", format!("{level} dB re 1 µm")),
     ];
+    rows.extend(manifest.source.assumed().map(|words| ("assumed", words)));
     if let Some(band) = &manifest.uncertainty {
         rows.extend(
             band.words()

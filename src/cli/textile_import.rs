@@ -1,17 +1,20 @@
 //! `selvedge textile import` and `convert`: measured heights into a textile, or into another
 //! format.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::picture::numbers;
 use super::textile_words::{WordsArgs, construction};
+use super::usage::one_of;
 use super::{CliError, output, terminal};
 use selvedge_textile::LengthUnit;
 use selvedge_textile::metrology::{self, HeightOptions};
-use selvedge_textile::surface::Representation;
+use selvedge_textile::surface::{Levelling, Preparation, Representation};
 use selvedge_textile::{
-    Construction, Description, HeightImport, HeightPlace, ImportOptions, TextileError,
+    BuiltFile, Construction, Description, HeightImport, HeightPlace, ImportOptions, TextileError,
 };
 
 /// What a file may leave open.
@@ -35,6 +38,9 @@ pub(super) struct AskedArgs {
     /// Which of several fields of heights, from 1
     #[arg(long, value_name = "N")]
     layer: Option<usize>,
+    /// Bring points that are not even to even steps, along straight lines
+    #[arg(long)]
+    resample: bool,
 }
 
 impl AskedArgs {
@@ -47,6 +53,7 @@ impl AskedArgs {
             range_um: self.range_um,
             column: self.column.clone(),
             layer: self.layer,
+            resample: self.resample,
         }
     }
 }
@@ -61,6 +68,15 @@ pub(super) struct ImportArgs {
     out: PathBuf,
     #[command(flatten)]
     asked: AskedArgs,
+    /// The part that is taken: from U, W to U, W, mm from the lower left corner
+    #[arg(long, value_name = "U,W,U,W", value_parser = part)]
+    crop: Option<Corners>,
+    /// Take heights for missing that lie so many robust spreads from those around them, 2 to 1000
+    #[arg(long, value_name = "SPREADS", value_parser = spreads)]
+    despike: Option<f64>,
+    /// What is taken off: the best plane if not said, nothing with --periodic
+    #[arg(long, value_name = "WHAT", value_parser = one_of(levels()))]
+    level: Option<Levelling>,
     /// Where the strokes cross, mm from the lower left corner (the middle if not said); once for
     /// every textile
     #[arg(long, alias = "at", value_name = "U,W", value_parser = place)]
@@ -101,11 +117,29 @@ fn unit(word: &str) -> Result<LengthUnit, String> {
     LengthUnit::of(word).ok_or_else(|| "give m, cm, mm, um, nm, pm or angstrom".to_owned())
 }
 
+fn levels() -> [(&'static str, Levelling); Levelling::ALL.len()] {
+    Levelling::ALL.map(|level| (level.word(), level))
+}
+
+/// Two corners of a part, mm.
+#[derive(Debug, Clone, Copy)]
+struct Corners([f64; 4]);
+
+fn part(text: &str) -> Result<Corners, String> {
+    let all = numbers(text).filter(|all: &[f64; 4]| all.iter().all(|mm| mm.is_finite()));
+    let wrong = || "give four numbers in mm, such as 1,1,21,16".to_owned();
+    all.map(Corners).ok_or_else(wrong)
+}
+
+fn spreads(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok();
+    let number = number.filter(|spreads: &f64| (2.0..=1000.0).contains(spreads));
+    number.ok_or_else(|| "give a number from 2 to 1000, such as 8".to_owned())
+}
+
 fn place(text: &str) -> Result<[f64; 2], String> {
-    let both = text.split_once(',');
-    let number = |text: &str| text.trim().parse().ok().filter(|mm: &f64| mm.is_finite());
-    both.and_then(|(u, w)| Some([number(u)?, number(w)?]))
-        .ok_or_else(|| "give two numbers in mm, such as 10,5".to_owned())
+    let both = numbers(text).filter(|both: &[f64; 2]| both.iter().all(|mm| mm.is_finite()));
+    both.ok_or_else(|| "give two numbers in mm, such as 10,5".to_owned())
 }
 
 /// Makes the textiles.
@@ -113,6 +147,11 @@ pub(crate) fn import(args: &ImportArgs) -> Result<(), CliError> {
     let bytes = selvedge_textile::read_measurement(&args.file)?;
     let options = ImportOptions {
         asked: args.asked.asked(),
+        preparation: Preparation {
+            crop_mm: args.crop.map(|corners| corners.0),
+            despike: args.despike,
+            level: args.level,
+        },
         is_periodic: args.periodic,
         representation: if args.areal {
             Representation::Areal
@@ -151,6 +190,30 @@ pub(crate) fn import(args: &ImportArgs) -> Result<(), CliError> {
         output::print(&format!("{}: {}\n", folder.display(), words.name))?;
     }
     Ok(())
+}
+
+/// A textile to be made again.
+#[derive(Debug, Args)]
+pub(super) struct RebuildArgs {
+    /// The textile's folder
+    folder: PathBuf,
+    /// Its file of heights, where that is not in the folder
+    #[arg(long, value_name = "FILE")]
+    file: Option<PathBuf>,
+}
+
+/// Makes a textile again, and says how many of its files are other ones now.
+pub(super) fn rebuild(args: &RebuildArgs) -> Result<(), CliError> {
+    let files = selvedge_textile::rebuilt(&args.folder, args.file.as_deref())?;
+    let is_other = |file: &&BuiltFile| {
+        fs::read(args.folder.join(&file.name)).ok().as_ref() != Some(&file.bytes)
+    };
+    let (n, n_other) = (files.len(), files.iter().filter(is_other).count());
+    selvedge_textile::write(&files, &args.folder)?;
+    let folder = args.folder.display();
+    output::print(&format!(
+        "{folder}: {n} files made again, {n_other} of them changed\n"
+    ))
 }
 
 /// The folder of one of several textiles.

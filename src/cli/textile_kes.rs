@@ -178,6 +178,9 @@ pub(super) fn run(args: &ImportKesArgs) -> Result<(), CliError> {
     let friction = friction.as_ref().map(self::given);
     let reading = KesReading::of(&given, friction, &options)?;
     let import = KesImport::new(reading, args.sections(), args.official_band)?;
+    for unit in &import.reading().assumed {
+        terminal::notice(&format!("assumed: {unit}, no unit is stated"));
+    }
     for note in &import.reading().notes {
         terminal::notice(note);
     }

@@ -1,11 +1,16 @@
-//! `selvedge textile levels`: how strong every textile of a library is, and what the library spans.
+//! `selvedge textile levels`: how strong every textile of a library is and how sure that is, and
+//! what the library spans.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
+
+use serde::Serialize;
 
 use super::output::TableOut;
 use super::terminal::with_meter;
 use super::{CliError, output};
+use selvedge_foundation::files::to_json_string;
 use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::{factor_of_gain, fixed, level_db};
 use selvedge_textile::tactile::{Band, Filters, Levels, Tuning};
@@ -52,32 +57,24 @@ pub(super) fn levels(library: &Library, out: Option<&Path>) -> Result<(), CliErr
         .collect();
     let mean_db = known.iter().sum::<f64>() / known.len().max(1) as f64;
     let reference_db = tuning.compression_reference_db.unwrap_or(mean_db);
+    let rows = all.iter().map(|one| cells(one, (&tuning, reference_db)));
+    let is_json = |file: &&Path| file.extension().is_some_and(|ending| ending == "json");
+    if let Some(file) = out.filter(is_json) {
+        let rows: Vec<BTreeMap<&str, Cell<'_>>> = rows
+            .map(|cells| LEVELS_HEADER.into_iter().zip(cells).collect())
+            .collect();
+        output::write_text(Some(file), &to_json_string(&rows, file)?)?;
+        return output::print(&spread(&all, (&tuning, reference_db)));
+    }
     let mut table = TableOut::new(out, &LEVELS_HEADER)?;
-    for (textile, levels) in &all {
+    for cells in rows {
         let row = table.rows();
-        row.text(textile.id())
-            .number(levels.mean_um[0])
-            .number(levels.mean_um[1]);
-        match levels.level_db() {
-            Some(level_db) => row.number(level_db),
-            None => row.text(""),
-        };
-        for value in levels.cv.into_iter().chain(levels.anisotropy_db) {
-            row.number(value);
-        }
-        for band in Band::ALL {
-            row.number(tuned_um(textile, levels, (&tuning, reference_db), band));
-        }
-        match &textile.manifest().uncertainty {
-            Some(band) if !band.levels.is_empty() => {
-                let ends = Band::ALL.map(|of| band.mean_level_db(of));
-                ends.into_iter().flatten().for_each(|db| {
-                    row.number(db);
-                });
-            }
-            _ => (0..4).for_each(|_| {
-                row.text("");
-            }),
+        for cell in cells {
+            match cell {
+                Cell::Text(text) => row.text(text),
+                Cell::Number(Some(number)) => row.number(number),
+                Cell::Number(None) => row.text(""),
+            };
         }
         row.end_row()?;
     }
@@ -88,6 +85,43 @@ pub(super) fn levels(library: &Library, out: Option<&Path>) -> Result<(), CliErr
         Some(file) if file == Path::new("-") => Ok(()),
         Some(_) => output::print(&spread(&all, (&tuning, reference_db))),
     }
+}
+
+/// A cell of the table.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[serde(untagged)]
+enum Cell<'a> {
+    Text(&'a str),
+    Number(Option<f64>),
+}
+
+/// The row of a textile.
+fn cells<'a>(
+    (textile, levels): &'a Measured,
+    tuning: (&Tuning, f64),
+) -> [Cell<'a>; LEVELS_HEADER.len()] {
+    let known = textile.manifest().uncertainty.as_ref();
+    let known = known.filter(|known| !known.levels.is_empty());
+    let [low, high] = Band::ALL.map(|band| known.map(|known| known.mean_level_db(band)));
+    let end = |of: Option<[f64; 2]>, end: usize| Cell::Number(of.map(|ends| ends[end]));
+    let number = |x: f64| Cell::Number(Some(x));
+    let [tuned_low, tuned_high] = Band::ALL.map(|band| tuned_um(textile, levels, tuning, band));
+    [
+        Cell::Text(textile.id()),
+        number(levels.mean_um[0]),
+        number(levels.mean_um[1]),
+        Cell::Number(levels.level_db()),
+        number(levels.cv[0]),
+        number(levels.cv[1]),
+        number(levels.anisotropy_db[0]),
+        number(levels.anisotropy_db[1]),
+        number(tuned_low),
+        number(tuned_high),
+        end(low, 0),
+        end(low, 1),
+        end(high, 0),
+        end(high, 1),
+    ]
 }
 
 /// What a library spans: ranges before and after its tuning, variation, anisotropy.

@@ -274,6 +274,33 @@ fn something_else_may_present_what_an_array_would() {
 }
 
 #[test]
+fn a_log_says_how_far_levels_of_its_textiles_may_be_off() {
+    let lab = Lab::with_scene();
+    let manifest = lab.read("textiles/fine/textile.toml");
+    let known = "[uncertainty]\nlevels = [[40.0, 0.0, -6.0, 2.0], [320.0, 0.0, -1.0, 4.0]]\n";
+    lab.write("textiles/fine/textile.toml", format!("{manifest}{known}"));
+    let design = CLOTH
+        .replace("real-cloth", "array")
+        .replace("\"a\", \"b\", \"c\", \"d\", \"e\"", "\"fine\", \"flat\"")
+        .replace("[odd_one_out]", "library = \"textiles\"\n[odd_one_out]");
+    lab.write("cloth.toml", design);
+    let outcome = lab.run_on(
+        &[&RUN[..], &["--presented-elsewhere=rig 2"]].concat(),
+        "quit\n",
+    );
+    assert_eq!(outcome.code, 0, "{outcome:?}");
+    let sidecar = lab.read(&LOG.replace(".csv", ".json"));
+    let sidecar: serde_json::Value = serde_json::from_str(&sidecar).unwrap();
+    let known = sidecar["uncertain"].as_object().unwrap();
+    assert_eq!(known.len(), 1, "{known:?}: the other is measured");
+    let words = known["fine"].as_str().unwrap();
+    assert!(
+        words.contains("A40 -6.0 to +2.0 dB along the warp"),
+        "{words}"
+    );
+}
+
+#[test]
 fn the_designs_of_the_program_are_listed_and_shown_as_files() {
     let lab = Lab::new();
     let list = lab.print(&["experiment", "designs"]);

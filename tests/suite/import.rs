@@ -176,3 +176,93 @@ fn one_import_makes_a_textile_for_every_place() {
         "it lies beside the manifest"
     );
 }
+
+/// Every file of a folder by its name.
+fn all_files(lab: &Lab, folder: &str) -> std::collections::BTreeMap<String, Vec<u8>> {
+    let entries = std::fs::read_dir(lab.path(folder)).unwrap();
+    let file = |entry: std::io::Result<std::fs::DirEntry>| {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        (name, std::fs::read(&path).unwrap())
+    };
+    entries.map(file).collect()
+}
+
+#[test]
+fn every_step_of_preparing_a_map_is_kept_and_runs_again_bit_for_bit() {
+    let lab = Lab::new();
+    let spiked = matrix().replacen("nan", "4000", 1);
+    lab.write("map.txt", spiked);
+    let import = ["textile", "import", "map.txt", "--out", "library/mine"];
+    let steps = [
+        "--crop",
+        "0,2,9,10",
+        "--despike",
+        "9",
+        "--level",
+        "quadratic",
+    ];
+    let outcome = lab.run(&[&import[..], &SCALE, &steps].concat());
+    assert_eq!(outcome.code, 0, "{outcome:?}");
+    assert!(outcome.err.contains("180 × 160 points"), "{outcome:?}");
+    assert!(outcome.err.contains("1 points are spikes"), "{outcome:?}");
+    let manifest = lab.read("library/mine/textile.toml");
+    for part in [
+        "crop_mm = [0.0, 2.0, 9.0, 10.0]",
+        "despike = 9.0",
+        "level = \"quadratic\"",
+        "n_missing = 1",
+    ] {
+        assert!(manifest.contains(part), "{part} in {manifest}");
+    }
+    let made = all_files(&lab, "library/mine");
+    let again = ["textile", "rebuild", "library/mine"];
+    let line = lab.refuse(&again);
+    assert!(
+        line.contains("map.txt, is not in the folder; say where it is"),
+        "{line}"
+    );
+    let from = [&again[..], &["--file", "map.txt"]].concat();
+    let line = lab.print(&from);
+    assert_eq!(
+        line,
+        "library/mine: 6 files made again, 0 of them changed\n"
+    );
+    assert_eq!(all_files(&lab, "library/mine"), made);
+    // Another step in the manifest is another textile.
+    let plane = manifest.replace("level = \"quadratic\"", "level = \"plane\"");
+    lab.write("library/mine/textile.toml", plane);
+    assert!(
+        lab.print(&from).contains("5 of them changed"),
+        "another surface"
+    );
+    assert!(
+        lab.read("library/mine/textile.toml").contains("\"plane\""),
+        "kept"
+    );
+    for wrong in ["0,0,90,8", "4,4,1,1"] {
+        let line = lab.refuse(&[&import[..], &SCALE, &["--crop", wrong]].concat());
+        assert!(line.contains("is not on the map; give crop_mm"), "{line}");
+    }
+}
+
+#[test]
+fn a_map_with_more_than_half_its_points_missing_is_refused() {
+    let lab = Lab::new();
+    let rows: Vec<String> = matrix().lines().map(str::to_owned).collect();
+    let empty = format!("1\t{}", vec!["nan"; 219].join("\t"));
+    let half = |n: usize| {
+        let lost = std::iter::repeat_n(empty.clone(), n);
+        let there = rows[n..].iter().cloned();
+        there.chain(lost).collect::<Vec<_>>().join("\n")
+    };
+    let import = ["textile", "import", "map.txt", "--out", "mine"];
+    lab.write("map.txt", half(101));
+    let line = lab.refuse(&[&import[..], &SCALE].concat());
+    assert!(
+        line.contains("22119 of 44000 points are missing, more than half"),
+        "{line}"
+    );
+    lab.write("map.txt", half(99));
+    assert_eq!(lab.run(&[&import[..], &SCALE].concat()).code, 0);
+}

@@ -126,3 +126,39 @@ fn what_is_no_export_is_refused_in_one_line_and_leaves_nothing() {
         );
     }
 }
+
+#[test]
+fn a_unit_that_nobody_states_is_marked_as_assumed() {
+    let lab = Lab::new();
+    let import = [
+        "textile",
+        "import-kes",
+        "a.txt",
+        "--out",
+        "library/a",
+        "--name",
+        "A",
+    ];
+    lab.write("a.txt", export().replace(" um", "").replace(" mm", ""));
+    let outcome = lab.run(&import);
+    assert_eq!(outcome.code, 0, "{outcome:?}");
+    assert!(
+        outcome.err.contains("assumed: heights in µm"),
+        "{outcome:?}"
+    );
+    let manifest = lab.read("library/a/textile.toml");
+    let kept = "assumed = [\"heights in µm\", \"places in mm\"]";
+    assert!(manifest.contains(kept), "{manifest}");
+    let shown = lab.print(&["textile", "show", "a", "--library", "library"]);
+    assert!(
+        shown.contains("assumed       heights in µm, places in mm"),
+        "{shown}"
+    );
+    lab.write("a.txt", export());
+    let stated = lab.run(&import);
+    assert!(!stated.err.contains("assumed"), "{stated:?}");
+    assert!(
+        !lab.read("library/a/textile.toml").contains("assumed"),
+        "it is stated"
+    );
+}

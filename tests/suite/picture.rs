@@ -10,7 +10,7 @@ use selvedge_textile::picture::{
 use crate::program::Lab;
 
 /// A cloth that repeats by (12, 3) and (−2, 9) px, as a PNG of 16 bits.
-fn cloth() -> Vec<u8> {
+pub(crate) fn cloth() -> Vec<u8> {
     let basis = Basis::new([12.0, 3.0], [-2.0, 9.0]);
     let turn = std::f64::consts::TAU;
     let values = (0..160 * 140_u16).map(|i| {
@@ -375,7 +375,7 @@ fn what_cannot_go_together_is_refused_in_one_line() {
     let lab = Lab::new();
     lab.write("weave.png", lit_weave());
     for (more, what) in [
-        (&["--textile", "a"][..], "--px-per-mm or --dpi"),
+        (&["--textile", "a"][..], "--px-per-mm, --dpi or"),
         (
             &["--textile", "a", "--dpi", "600"],
             "--relief-um or --smd-um",

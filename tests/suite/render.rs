@@ -252,6 +252,25 @@ fn a_band_is_written_at_both_ends_and_shifts_only_what_has_one() {
         ["6.5", ""],
         "the mean of warp and weft"
     );
+    lab.print(&[
+        "textile",
+        "levels",
+        "--library",
+        "textiles",
+        "--out",
+        "levels.json",
+    ]);
+    let json: serde_json::Value = serde_json::from_str(&lab.read("levels.json")).unwrap();
+    let of = |row: usize, key: &str| json[row][key].clone();
+    assert_eq!([of(0, "low40_db"), of(0, "high320_db")], [-6.0, 6.5]);
+    assert_eq!(
+        of(0, "a40_um").as_f64().unwrap(),
+        levels.numbers("a40_um")[0]
+    );
+    assert!(
+        of(1, "low40_db").is_null() && of(1, "textile") == "flat",
+        "{json}"
+    );
     let line = lab.refuse(&[&RENDER[..], &["--band", "low.csv"]].concat());
     assert!(line.contains("LOW.csv,HIGH.csv"), "{line}");
 }

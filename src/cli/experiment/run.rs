@@ -3,9 +3,11 @@
 //! The experimenter lays what is said and types what the participant answers. Vibrations and
 //! virtual textiles are presented by the window; here only where something else presents them.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, IsTerminal as _, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant, SystemTime};
 
@@ -14,11 +16,12 @@ use clap::Args;
 use super::super::{CliError, output, terminal};
 use super::desk::{Bench, Desk, Ended, Moment};
 use selvedge_experiment::by_hand::needs_array;
-use selvedge_experiment::design::{Design, Source, Subject};
+use selvedge_experiment::design::{Design, Source, Stimulus, Subject};
 use selvedge_experiment::session::{Found, Origin, Session, log_path};
 use selvedge_experiment::{Apparatus, Course, Participant, Participants, Particulars, Proof};
 use selvedge_foundation::files;
 use selvedge_foundation::quantity::moment_of;
+use selvedge_textile::Textile;
 use selvedge_textile::tactile::Tuning;
 
 /// What presents cloth on the table.
@@ -149,8 +152,7 @@ fn tuning(args: &RunArgs, design: &Design) -> Result<Tuning, CliError> {
     match design.tuning {
         Some(tuning) => Ok(tuning),
         None if sources.any(is_textile) => {
-            let folder = args.design.parent().unwrap_or_else(|| Path::new(""));
-            Ok(design.open_library(folder, None)?.default_tuning())
+            Ok(design.open_library(folder_of(args), None)?.default_tuning())
         }
         None => Ok(Tuning::default()),
     }
@@ -204,13 +206,35 @@ fn opened(
         session
     };
     output::make_folder(&folder, "choose another with --folder")?;
+    let textiles = textiles(args, &design)?;
+    let origin = Origin::file(device, &args.design).knowing(textiles.iter().map(AsRef::as_ref));
     let nth = Participants::enrol(&folder, &participant, now)?;
     Ok(Session::create(
         &folder,
         design,
         subject(next, nth),
-        Origin::file(device, &args.design),
+        origin,
     )?)
+}
+
+/// The textiles that the design asks about, whose levels may be known to a band only.
+fn textiles(args: &RunArgs, design: &Design) -> Result<Vec<Arc<Textile>>, CliError> {
+    let id = |stimulus: &Stimulus| match &stimulus.source {
+        Source::Textile { id, .. } => Some(id.clone()),
+        _ => None,
+    };
+    let ids: BTreeSet<String> = design.stimuli.iter().filter_map(id).collect();
+    if ids.is_empty() {
+        return Ok(Vec::new());
+    }
+    let library = design.open_library(folder_of(args), None)?;
+    let load = |id: &String| Ok(library.load(id)?);
+    ids.iter().map(load).collect()
+}
+
+/// The folder of the design, from which its library is found.
+fn folder_of(args: &RunArgs) -> &Path {
+    args.design.parent().unwrap_or_else(|| Path::new(""))
 }
 
 /// A session whose log is there: what is in it is told, and it is opened where that was asked for.

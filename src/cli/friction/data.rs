@@ -8,7 +8,7 @@ use clap::Args;
 use crate::CliError;
 use crate::picture::positive;
 use crate::terminal;
-use selvedge_foundation::files::{FileError, Table, read_text};
+use selvedge_foundation::files::{FileError, PICTURE_ENDINGS, Table, read_text};
 use selvedge_foundation::numerics::{Grid, to_single};
 use selvedge_foundation::quantity::fixed;
 use selvedge_friction::Fabric;
@@ -155,7 +155,7 @@ fn pictures(folder: &Path) -> Result<Vec<PathBuf>, CliError> {
         let ending = path
             .extension()
             .map(|ending| ending.to_string_lossy().to_lowercase());
-        ending.is_some_and(|e| ["png", "jpg", "jpeg", "tif", "tiff", "bmp"].contains(&e.as_str()))
+        ending.is_some_and(|ending| PICTURE_ENDINGS.contains(&ending.as_str()))
     };
     let mut paths: Vec<PathBuf> = entries
         .flatten()

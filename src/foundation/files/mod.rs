@@ -50,7 +50,7 @@ pub use keys::{
 };
 pub use matrix::SquareTable;
 pub use npy::NumberArray;
-pub use picture::{Rgb8Image, Rgb16Image, encode_png_rgba, is_picture};
+pub use picture::{PICTURE_ENDINGS, Rgb8Image, Rgb16Image, encode_png_rgba, is_picture};
 pub use place::{free_bytes, is_accessible};
 pub use read::{read, read_known, read_text};
 pub use staged::Staged;

@@ -52,6 +52,9 @@ const FORMATS: [ImageFormat; 4] = [
     ImageFormat::Bmp,
 ];
 
+/// How the names of pictures end that are decoded, in lower case.
+pub const PICTURE_ENDINGS: [&str; 6] = ["png", "jpg", "jpeg", "tif", "tiff", "bmp"];
+
 /// Whether a file begins as a picture that is decoded.
 pub fn is_picture(head: &[u8]) -> bool {
     image::guess_format(head).is_ok_and(|format| FORMATS.contains(&format))

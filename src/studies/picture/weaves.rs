@@ -129,7 +129,7 @@ fn of_weaves(
     bench: &mut Bench<'_>,
     calibration: &mut Calibration,
 ) -> Row {
-    // The lattice of bent cloth is that of its flattest part, so many per cent from the mean.
+    // The lattice of bent cloth may be that of its flattest part, so many per cent from the mean.
     let tolerance = RIGHT + taken.stretch;
     let [mut n, mut n_right, mut n_threads, mut n_gave, mut n_none] = [0.0; 5];
     let mut first = None;

@@ -275,6 +275,8 @@ fn notes(textile: &Textile) -> Vec<String> {
     }
     notes.push(manifest.notes.clone());
     notes.push(origin(textile));
+    let assumed = manifest.source.assumed();
+    notes.extend(assumed.map(|words| format!("Assumed: {words}.")));
     let known = manifest.uncertainty.as_ref().and_then(Uncertainty::words);
     notes.extend(known.map(|words| format!("Known to: {words} (upright lines at 100 mm/s).")));
     notes.extend(textile.fall_backs());

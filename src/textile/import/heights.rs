@@ -5,7 +5,6 @@
 //! is kept is a textile: strokes as profile files, a shaded picture, and a manifest that says what
 //! they came from.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::description::{Description, manifest_file};
@@ -17,7 +16,7 @@ use crate::metrology::{HeightOptions, Measured};
 use crate::recipe::{ProfileFiles, SourceKeys as _};
 use crate::sources::Source;
 use crate::sources::heightmap::{Heightmap, Laid};
-use crate::surface::{Direction, HeightMap, ProfileSet, Representation, smd_um};
+use crate::surface::{Direction, HeightMap, Preparation, ProfileSet, Representation, smd_um};
 use crate::yarns::PX_PER_MM;
 use selvedge_foundation::files::sha256_hex;
 
@@ -26,6 +25,8 @@ use selvedge_foundation::files::sha256_hex;
 pub struct ImportOptions {
     /// What the file leaves open.
     pub asked: HeightOptions,
+    /// What is done to the heights.
+    pub preparation: Preparation,
     /// Whether the map is one repeat of the textile.
     pub is_periodic: bool,
     /// Whether textiles are felt along four strokes, or at every point of the map.
@@ -60,12 +61,40 @@ impl HeightImport {
         let file = path.file_name().unwrap_or_default();
         let mut keys = Heightmap::new(file.to_string_lossy().into_owned(), &options.asked);
         keys.sha256 = Some(sha256_hex([bytes]));
+        keys.set_preparation(options.preparation);
         keys.periodic = options.is_periodic;
         keys.representation = options.representation;
-        let measured = keys.open(bytes, path)?;
-        if measured.about.format == "X3P" {
-            "x3p".clone_into(&mut keys.kind);
+        let mut import = Self::by_keys(keys, bytes, path)?;
+        if import.measured.about.format == "X3P" {
+            "x3p".clone_into(&mut import.keys.kind);
         }
+        Ok(import)
+    }
+
+    /// The files of a textile made again of its file of heights, as its manifest says.
+    pub(super) fn again(
+        manifest: &Manifest,
+        keys: &Heightmap,
+        (bytes, path): (&[u8], &Path),
+    ) -> Result<Vec<BuiltFile>, TextileError> {
+        let import = Self::by_keys(keys.clone(), bytes, path)?;
+        let place = import.place(keys.place_mm)?;
+        let is_changed = |source: &Source| {
+            let recipe_hash = source.keys().recipe_hash();
+            recipe_hash != manifest.source.keys().recipe_hash()
+        };
+        import.files_with(&place, bytes, |source| {
+            let mut again = manifest.clone();
+            if is_changed(&source) {
+                again.measured.extend(import.figures(&place));
+            }
+            again.source = source;
+            again
+        })
+    }
+
+    fn by_keys(keys: Heightmap, bytes: &[u8], path: &Path) -> Result<Self, TextileError> {
+        let measured = keys.open(bytes, path)?;
         let laid = keys.laid(&measured, path)?;
         Ok(Self {
             path: path.to_owned(),
@@ -127,6 +156,17 @@ impl HeightImport {
         description: &Description,
         bytes: &[u8],
     ) -> Result<Vec<BuiltFile>, TextileError> {
+        self.files_with(place, bytes, |source| {
+            self.manifest(source, place, description)
+        })
+    }
+
+    fn files_with(
+        &self,
+        place: &HeightPlace,
+        bytes: &[u8],
+        manifest: impl FnOnce(Source) -> Manifest,
+    ) -> Result<Vec<BuiltFile>, TextileError> {
         let mut keys = self.keys.clone();
         keys.place_mm = place.place_mm;
         let mut files = Vec::new();
@@ -147,17 +187,12 @@ impl HeightImport {
             let bytes = picture.to_small_png(Path::new(PICTURE))?;
             files.push(BuiltFile::new(PICTURE, bytes));
         }
-        let manifest = self.manifest(keys, place, description);
+        let manifest = manifest(Source::Heightmap(Box::new(keys)));
         files.push(manifest_file(&manifest, Path::new(MANIFEST))?);
         Ok(files)
     }
 
-    fn manifest(
-        &self,
-        keys: Heightmap,
-        place: &HeightPlace,
-        description: &Description,
-    ) -> Manifest {
+    fn manifest(&self, source: Source, place: &HeightPlace, description: &Description) -> Manifest {
         let name = description.name.trim();
         let name = if name.is_empty() {
             self.own_name()
@@ -167,7 +202,10 @@ impl HeightImport {
         let about = &self.measured.about;
         let parts = [
             description.notes.clone(),
-            format!("measured heights from {} ({})", keys.file, about.format),
+            format!(
+                "measured heights from {} ({})",
+                self.keys.file, about.format
+            ),
             about.instrument.clone(),
             about.date.clone(),
             about.comment.clone(),
@@ -175,27 +213,26 @@ impl HeightImport {
         let parts = parts.into_iter().chain(self.notes().iter().cloned());
         let parts = parts.map(|part| part.split_whitespace().collect::<Vec<_>>().join(" "));
         let parts: Vec<String> = parts.filter(|part| !part.is_empty()).collect();
+        let picture = AppearanceKeys {
+            image: PICTURE.to_owned(),
+            px_per_mm: PX_PER_MM,
+        };
+        Manifest {
+            name,
+            notes: parts.join("; "),
+            appearance: (!self.measured.is_profile()).then_some(picture),
+            ..description.manifest(source, self.figures(place).into_iter().collect())
+        }
+    }
+
+    fn figures(&self, place: &HeightPlace) -> [(String, f64); 3] {
         let round = |um: f64| (um * 1e3).round() / 1e3;
         let figures = [
             ("smd_um", round(place.smd_um())),
             ("sq_um", round(self.measured.sq_um())),
             ("n_missing", self.measured.n_missing() as f64),
         ];
-        let figures: BTreeMap<String, f64> = figures
-            .map(|(key, um)| (key.to_owned(), um))
-            .into_iter()
-            .collect();
-        let picture = AppearanceKeys {
-            image: PICTURE.to_owned(),
-            px_per_mm: PX_PER_MM,
-        };
-        let source = Source::Heightmap(Box::new(keys));
-        Manifest {
-            name,
-            notes: parts.join("; "),
-            appearance: (!self.measured.is_profile()).then_some(picture),
-            ..description.manifest(source, figures)
-        }
+        figures.map(|(key, value)| (key.to_owned(), value))
     }
 }
 

@@ -188,6 +188,7 @@ impl KesImport {
             importer: IMPORTER.to_owned(),
             files,
             sha256,
+            assumed: self.reading.assumed.clone(),
             um_per_volt: self.reading.um_per_volt,
             warp_section_mm: bounds(self.sections[0]),
             weft_section_mm: bounds(self.sections[1]),

@@ -10,6 +10,7 @@ mod kes;
 mod kes_chart;
 mod picture;
 mod profile_files;
+mod rebuild;
 
 pub use description::Description;
 pub use ensemble::{Ensemble, Lamp};
@@ -19,6 +20,7 @@ pub use kes::{KesFigures, KesImport};
 pub use picture::PictureTextile;
 #[cfg(test)]
 pub(crate) use picture::to_textile;
+pub use rebuild::rebuilt;
 
 use std::path::Path;
 

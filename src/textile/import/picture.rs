@@ -9,10 +9,10 @@ use super::profile_files::{profile_files, shaded};
 use crate::build::{BuiltFile, PICTURE};
 use crate::error::TextileError;
 use crate::manifest::{AppearanceKeys, Construction, MANIFEST, Manifest, Provenance, Uncertainty};
-use crate::metrology::{self, HeightOptions, Measured};
-use crate::picture::Tile;
+use crate::metrology::{self, Measured};
 use crate::picture::brightness::Brightness;
 use crate::picture::shading::{ShadingError, Shape};
+use crate::picture::{PictureScale, Tile};
 use crate::recipe::{ProfileFiles, SourceKeys as _, source};
 use crate::sources::Source;
 use crate::sources::picture::PictureSource;
@@ -37,6 +37,8 @@ pub struct PictureTextile {
     pub construction: Construction,
     /// The picture's scale, 2 to 2000.
     pub px_per_mm: f64,
+    /// How that is known.
+    pub px_scale: Option<PictureScale>,
     /// Extent of the tile, px of the picture, where a sample of the shape is not quite a pixel.
     pub size_px: Option<[f64; 2]>,
     /// What is known of its height.
@@ -78,18 +80,39 @@ pub(crate) fn to_textile(
     (keys.relief_um, keys.smd_um) = (rounded(scaled.relief_um), scaled.smd_um);
     let bytes = metrology::write(&measured(&scaled.map, &about.name), path)?;
     keys.sha256 = Some(sha256_hex([bytes.as_slice()]));
-    // Strokes are drawn over the map as the file has it.
-    let kept = Measured::open(&bytes, path, &HeightOptions::default())?;
-    let profiles = keys.map().strokes(&kept, path)?;
-    let mut files = vec![BuiltFile::new(MAP, bytes)];
+    drawn(bytes, keys, path, |keys| manifest(about, keys))
+}
+
+/// The files of a textile made again of its map, as its manifest says.
+pub(super) fn again(
+    manifest: &Manifest,
+    keys: &PictureSource,
+    (bytes, path): (Vec<u8>, &Path),
+) -> Result<Vec<BuiltFile>, TextileError> {
+    drawn(bytes, keys.clone(), path, |keys| Manifest {
+        source: Source::Picture(Box::new(keys)),
+        ..manifest.clone()
+    })
+}
+
+/// Map, strokes over the map as the file has it, and picture, with their manifest.
+fn drawn(
+    bytes: Vec<u8>,
+    mut keys: PictureSource,
+    path: &Path,
+    manifest: impl FnOnce(PictureSource) -> Manifest,
+) -> Result<Vec<BuiltFile>, TextileError> {
+    let map = keys.map();
+    let kept = map.open(&bytes, path)?;
+    let profiles = map.strokes(&kept, path)?;
+    let mut files = vec![BuiltFile::new(&keys.file, bytes)];
     files.extend(profile_files(&profiles)?);
     let image = shaded(&kept).map_err(no_surface)?;
     let bytes = image.to_small_png(Path::new(PICTURE))?;
     files.push(BuiltFile::new(PICTURE, bytes));
     let hash = Source::Picture(Box::new(keys.clone())).recipe_hash(path)?;
     keys.set_files(ProfileFiles::all(), Some(hash));
-    let manifest = manifest(about, keys);
-    files.push(manifest_file(&manifest, Path::new(MANIFEST))?);
+    files.push(manifest_file(&manifest(keys), Path::new(MANIFEST))?);
     Ok(files)
 }
 
@@ -199,6 +222,7 @@ fn keys(shape: &Shape, about: &PictureTextile) -> PictureSource {
         picture,
         picture_sha256,
         px_per_mm: about.px_per_mm,
+        scale: about.px_scale,
         lattice_px: about.lattice_px,
         method: shape.method,
         iterations: u32::try_from(shape.n_iterations()).unwrap_or(u32::MAX),

@@ -1,5 +1,6 @@
 //! What the files hold: strokes in the order of travel, each with its place on the textile.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::marks::{Mark, marks_of};
@@ -66,6 +67,8 @@ pub struct KesReading {
     pub files: Vec<[String; 2]>,
     /// What one volt stands for, µm, where heights were in volts.
     pub um_per_volt: Option<f64>,
+    /// Units that are assumed because nothing states them: `heights in µm`.
+    pub assumed: Vec<String>,
 }
 
 impl KesStroke {
@@ -97,7 +100,7 @@ impl KesReading {
         options: &KesOptions,
     ) -> Result<Self, TextileError> {
         let given_friction = friction;
-        let mut notes = Vec::new();
+        let (mut notes, mut assumed) = (Vec::new(), BTreeSet::new());
         let mut raw: Vec<(&Path, RawStroke)> = Vec::new();
         for (nth, (file, is_friction)) in files
             .iter()
@@ -112,6 +115,7 @@ impl KesReading {
                 n_files: files.len(),
                 is_friction,
                 notes: &mut notes,
+                assumed: &mut assumed,
             };
             let strokes = reader.strokes(file.bytes)?;
             raw.extend(strokes.into_iter().map(|stroke| (file.path, stroke)));
@@ -135,6 +139,7 @@ impl KesReading {
             notes,
             files,
             um_per_volt: options.um_per_volt,
+            assumed: assumed.into_iter().collect(),
         })
     }
 

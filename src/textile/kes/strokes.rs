@@ -1,5 +1,6 @@
 //! Strokes as a file holds them: which columns, which rows, which units.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::columns::{Column, axis_of, columns_of, side_of, tokens};
@@ -41,6 +42,8 @@ pub(super) struct Reader<'a> {
     /// Whether it was given as a file of friction.
     pub(super) is_friction: bool,
     pub(super) notes: &'a mut Vec<String>,
+    /// Units that neither a file nor anybody states.
+    pub(super) assumed: &'a mut BTreeSet<String>,
 }
 
 /// Some rows of a table with their places.
@@ -65,6 +68,7 @@ impl Reader<'_> {
         let columns = columns_of(&table, said)
             .map_err(|what| asks(self.path, table.lines[0], what, KesAsk::Columns))?;
         let parts = self.parts(&table, &columns)?;
+        self.assume(&columns);
         let measured: Vec<(usize, Column)> = columns
             .into_iter()
             .enumerate()
@@ -89,6 +93,23 @@ impl Reader<'_> {
             }
         }
         Ok(strokes)
+    }
+
+    /// Notes which units are the usual ones because none is stated.
+    fn assume(&mut self, columns: &[Column]) {
+        let options = self.options;
+        let lacks = |is_of: fn(ColumnRole) -> bool| {
+            let mut of = columns.iter().filter(|column| is_of(column.role));
+            of.any(|column| column.unit.is_none())
+        };
+        let is_place_said = options.x_unit.is_some() || options.step_mm.is_some();
+        if !is_place_said && lacks(|role| role == ColumnRole::Distance) {
+            self.assumed.insert("places in mm".to_owned());
+        }
+        let is_height_said = options.height_unit.is_some() || options.um_per_volt.is_some();
+        if !is_height_said && lacks(|role| matches!(role, ColumnRole::Height(..))) {
+            self.assumed.insert("heights in µm".to_owned());
+        }
     }
 
     fn no_table(&self, none: NoTable) -> TextileError {

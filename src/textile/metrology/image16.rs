@@ -25,6 +25,18 @@ pub(super) fn read(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<R
     }
     let number = |key: &str| picture.text(key)?.trim().parse::<f64>().ok();
     let stated = number("Gwy::ZMin").zip(number("Gwy::ZMax"));
+    let in_um = picture
+        .text("Gwy::ZUnit")
+        .and_then(LengthUnit::of)
+        .map(LengthUnit::um);
+    if let (Some(asked), Some((low, high)), Some(um)) = (asked.range_um, stated, in_um)
+        && !(((high - low) * um / asked - 1.0).abs() <= 0.01)
+    {
+        let found = (high - low) * um;
+        let what = format!("the picture states {found} µm from black to white, not {asked} µm");
+        let mend = "leave range_um (--range-um) out, or correct the file";
+        return Err(FileError::whole(path, what, mend));
+    }
     let scale = match (asked.range_um, stated) {
         (Some(range_um), _) if range_um > 0.0 && range_um.is_finite() => (0.0, range_um),
         (None, Some((low, high))) if high >= low => (low, high),

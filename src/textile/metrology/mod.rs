@@ -55,7 +55,7 @@ type Reader = fn(&[u8], &Path, &HeightOptions) -> Result<Reading, FileError>;
 
 /// How files begin, and who reads them.
 const FORMATS: [(&[u8], Reader); 11] = [
-    (b"PK\x03\x04", |bytes, path, _| x3p::read(bytes, path)),
+    (b"PK\x03\x04", x3p::read),
     (b"DIGITAL SURF", |bytes, path, _| sur::read(bytes, path)),
     (b"DSCOMPRESSED", |bytes, path, _| sur::read(bytes, path)),
     (b"GWYP", gwy::read),

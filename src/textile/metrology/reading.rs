@@ -8,7 +8,7 @@ use crate::unit::LengthUnit;
 use selvedge_foundation::files::FileError;
 use selvedge_foundation::numerics::Grid;
 
-/// What a file may leave open, and what is known better than the file does.
+/// What a file may leave open. What it states is not overridden: a contradiction is refused.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct HeightOptions {
     /// The unit of the heights.
@@ -23,6 +23,8 @@ pub struct HeightOptions {
     pub column: Option<String>,
     /// Which of several fields of heights, from 1.
     pub layer: Option<usize>,
+    /// Whether points that are not even are brought to even steps.
+    pub resample: bool,
 }
 
 /// What a file says about itself.
@@ -231,7 +233,8 @@ impl Reading {
         Ok(measured)
     }
 
-    /// The unit to use: what was asked for, with a warning where the file says otherwise.
+    /// The unit to use: the one stated, else the one asked for. A word that is no length gives way,
+    /// with a warning.
     fn decide(
         &mut self,
         (of, mend): (&str, &str),
@@ -239,32 +242,45 @@ impl Reading {
         asked: Option<LengthUnit>,
         path: &Path,
     ) -> Result<LengthUnit, FileError> {
-        let said = match stated {
-            Stated::Nothing => None,
-            Stated::Length(unit) => Some(unit.word()),
-            Stated::Other(word) => Some(word.as_str()),
+        let what = match (stated, asked) {
+            (Stated::Length(stated), Some(asked)) if *stated != asked => {
+                let (said, asked) = (stated.word(), asked.word());
+                let what = format!("the file states the {of} in {said}, {asked} was asked for");
+                let option = mend.split_once(": ").map_or(mend, |(option, _)| option);
+                let mend = format!("{option} only where the file states none");
+                return Err(FileError::whole(path, what, mend));
+            }
+            (Stated::Length(stated), _) => return Ok(*stated),
+            (Stated::Nothing, Some(asked)) => return Ok(asked),
+            (Stated::Other(said), Some(asked)) => {
+                let word = asked.word();
+                let line = format!("the file states {of} in {said}; they are taken in {word}");
+                self.warnings.push(line);
+                return Ok(asked);
+            }
+            (Stated::Other(word), None) => format!("the unit of the {of} is \"{word}\", no length"),
+            (Stated::Nothing, None) => format!("the unit of the {of} is not stated"),
         };
-        if let (Some(said), Some(asked)) = (said, asked)
-            && stated.length() != Some(asked)
-        {
-            let asked = asked.word();
-            let line = format!("the file states {of} in {said}; they are taken in {asked}");
-            self.warnings.push(line);
-        }
-        asked.or_else(|| stated.length()).ok_or_else(|| {
-            let what = match said {
-                Some(word) => format!("the unit of the {of} is \"{word}\", no length"),
-                None => format!("the unit of the {of} is not stated"),
-            };
-            FileError::whole(path, what, mend)
-        })
+        Err(FileError::whole(path, what, mend))
     }
 
     fn step_mm(&mut self, path: &Path, asked: &HeightOptions) -> Result<[f64; 2], FileError> {
         let mend = "give step_mm (--step-mm), the distance of points in mm";
         let wrong = |what: String| FileError::whole(path, what, mend);
+        let stated = self
+            .steps
+            .zip(self.length_unit.length().or(asked.length_unit));
+        let stated = stated.map(|(steps, unit)| steps.map(|step| step * unit.um() / 1000.0));
         let steps_mm = match (asked.step_mm, self.steps) {
-            (Some(step_mm), _) => [step_mm; 2],
+            (Some(step_mm), _) => {
+                let is_other = |stated: &f64| !((stated / step_mm - 1.0).abs() <= SAME_STEP);
+                if let Some(stated) = stated.iter().flatten().find(|stated| is_other(stated)) {
+                    let what = format!("the points lie {stated} mm apart, not {step_mm} mm");
+                    let mend = "leave step_mm (--step-mm) out, or correct the file";
+                    return Err(FileError::whole(path, what, mend));
+                }
+                stated.unwrap_or([step_mm; 2])
+            }
             (None, Some(steps)) => {
                 let mend = "give length_unit (--length-unit) or step_mm (--step-mm)";
                 let unit = self.length_unit.clone();
@@ -279,6 +295,40 @@ impl Reading {
             None => Ok(steps_mm),
         }
     }
+}
+
+/// Steps that differ by at most this share are one.
+const SAME_STEP: f64 = 0.01;
+
+/// Heights at uneven places, brought to as many even ones between the first and the last, along
+/// each row by straight lines; missing where one of both neighbours is. Places rise or fall.
+pub(super) fn resampled(values: &Grid<f64>, places: &[f64]) -> Grid<f64> {
+    let n = places.len();
+    let (first, last) = (places[0], places[n - 1]);
+    let sign = (last - first).signum();
+    let mut even = values.clone();
+    let mut before = 0;
+    for column in 0..n {
+        let at = first + (last - first) * column as f64 / (n - 1) as f64;
+        while before + 2 < n && sign * places[before + 1] <= sign * at {
+            before += 1;
+        }
+        let (from, to) = (places[before], places[before + 1]);
+        let share = if (to - from).abs() > 0.0 {
+            ((at - from) / (to - from)).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        for row in 0..values.height() {
+            let (a, b) = (values.row(row)[before], values.row(row)[before + 1]);
+            even.row_mut(row)[column] = match share {
+                0.0 => a,
+                1.0 => b,
+                _ => a + share * (b - a),
+            };
+        }
+    }
+    even
 }
 
 /// The even step of places in order; `slack` is how far a place may stand beside its even one
@@ -315,7 +365,7 @@ pub(super) fn even_step(places: &[f64], slack: f64) -> Result<f64, String> {
 }
 
 /// What to do about places that are not even.
-pub(super) const UNEVEN_MEND: &str = "resample to even steps (within 1 %)";
+pub(super) const UNEVEN_MEND: &str = "give resample (--resample) for even steps (within 1 %)";
 
 /// The number of points of a grid, checked against [`MAX_POINTS`].
 pub(super) fn n_points(n_columns: usize, n_rows: usize, path: &Path) -> Result<usize, FileError> {

@@ -56,8 +56,8 @@ pub(super) fn all() -> Vec<(&'static str, Vec<u8>, HeightOptions)> {
         ("tmd", tmd(), none.clone()),
         ("frt", frt(), none.clone()),
         ("two columns", two_columns().into_bytes(), none.clone()),
-        ("valid", valid().into_bytes(), none),
-        ("matrix", matrix().into_bytes(), asked),
+        ("valid", valid().into_bytes(), none.clone()),
+        ("matrix", matrix().into_bytes(), none),
     ]
 }
 

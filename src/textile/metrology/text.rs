@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use super::reading::{About, Stated, UNEVEN_MEND, even_step};
+use super::reading::{About, Stated, UNEVEN_MEND, even_step, resampled};
 use super::{HeightOptions, LengthUnit, Reading, n_points};
 use crate::number_table::{NoTable, RawTable, table_with_gaps};
 use selvedge_foundation::files::FileError;
@@ -17,34 +17,58 @@ pub(super) fn read(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<R
     let columns = Columns::of(table);
     let keys = MatrixKeys::of(&columns.table.header);
     let is_named = columns.headings.iter().any(|heading| !heading.is_empty());
-    let is_matrix = keys.extents[0].is_some() || (columns.numbers().len() > 3 && !is_named);
+    let is_matrix = keys.extents[0].is_some()
+        || keys.steps[0].is_some()
+        || (columns.numbers().len() > 3 && !is_named);
     if is_matrix && asked.column.is_none() {
         return matrix(columns.numbers(), keys, path);
     }
     let choice = Choice::of(&columns, asked, path)?;
     let mut reading = profile(&columns, &choice, path)?;
-    // A step that was given stands for the places.
-    if asked.step_mm.is_some() {
-        return Ok(reading);
-    }
     if let Some(x) = choice.x {
-        let places = &columns.numbers()[x];
-        let slack = rounding(places, columns.table.quanta[x]);
-        let step = even_step(places, slack).map_err(|what| {
-            let what = format!("from line {}: {what}", columns.table.lines[0]);
-            FileError::whole(path, what, UNEVEN_MEND)
-        })?;
-        if step < 0.0 {
-            reading.values.values_mut().reverse();
-        }
-        // Nine digits: what is left of binary fractions goes.
-        let step = format!("{:.8e}", step.abs())
-            .parse()
-            .unwrap_or_else(|_| step.abs());
-        reading.steps = Some([step; 2]);
-        reading.length_unit = LengthUnit::in_heading(&columns.headings[x]).into();
+        take_places(&mut reading, (&columns, x), asked, path)?;
     }
     Ok(reading)
+}
+
+/// Steps and their unit by the column of places. A step that was given stands for places whose unit
+/// is not stated.
+fn take_places(
+    reading: &mut Reading,
+    (columns, x): (&Columns, usize),
+    asked: &HeightOptions,
+    path: &Path,
+) -> Result<(), FileError> {
+    let unit = LengthUnit::in_heading(&columns.headings[x]);
+    if asked.step_mm.is_some() && unit.is_none() {
+        return Ok(());
+    }
+    let places = &columns.numbers()[x];
+    let slack = rounding(places, columns.table.quanta[x]);
+    let step = match even_step(places, slack) {
+        Ok(step) => step,
+        Err(what) if asked.resample && rises(places) => {
+            reading.values = resampled(&reading.values, places);
+            reading
+                .warnings
+                .push(format!("brought to even steps: {what}"));
+            (places[places.len() - 1] - places[0]) / (places.len() - 1) as f64
+        }
+        Err(what) => {
+            let what = format!("from line {}: {what}", columns.table.lines[0]);
+            return Err(FileError::whole(path, what, UNEVEN_MEND));
+        }
+    };
+    if step < 0.0 {
+        reading.values.values_mut().reverse();
+    }
+    // Nine digits: what is left of binary fractions goes.
+    let step = format!("{:.8e}", step.abs())
+        .parse()
+        .unwrap_or_else(|_| step.abs());
+    reading.steps = Some([step; 2]);
+    reading.length_unit = unit.into();
+    Ok(())
 }
 
 fn no_table(none: &NoTable, path: &Path) -> FileError {
@@ -229,16 +253,23 @@ fn matrix(columns: &[Vec<f64>], keys: MatrixKeys, path: &Path) -> Result<Reading
         reading.steps = Some([x / width as f64, step_y]);
         reading.length_unit = Stated::Length(unit_x);
     }
+    if let [Some((x, unit_x)), Some((y, unit_y))] = keys.steps {
+        reading.steps = Some([x, y * unit_y.um() / unit_x.um()]);
+        reading.length_unit = Stated::Length(unit_x);
+    }
     reading.height_unit = keys.height_unit;
     reading.about.title = keys.about.title;
     Ok(reading)
 }
 
-/// What the comment lines of a text matrix say, as Gwyddion writes them.
+/// What the lines above a text matrix say: extents and units as Gwyddion writes them, and sizes of
+/// a pixel and units as people do.
 #[derive(Debug, Default)]
 struct MatrixKeys {
     /// Extents with their units.
     extents: [Option<(f64, LengthUnit)>; 2],
+    /// Steps with their units.
+    steps: [Option<(f64, LengthUnit)>; 2],
     height_unit: Stated,
     about: About,
 }
@@ -248,26 +279,53 @@ impl MatrixKeys {
     fn of(header: &[String]) -> Self {
         let mut keys = Self::default();
         for line in header {
-            let line = line.trim_start_matches(['#', ' ']);
-            let Some((key, value)) = line.split_once(':') else {
+            let line = line.trim_start_matches(['#', ';', '%', '/', ' ']);
+            let Some((key, value)) = line.split_once([':', '=', '\t', ';', ',']) else {
                 continue;
             };
             let value = value.trim();
             match key.trim() {
-                "Width" => keys.extents[0] = extent(value),
-                "Height" => keys.extents[1] = extent(value),
-                "Value units" => keys.height_unit = Stated::of(value),
+                "Width" => keys.extents[0] = extent(key, value),
+                "Height" => keys.extents[1] = extent(key, value),
                 "Channel" => value.clone_into(&mut keys.about.title),
-                _ => {}
+                key => keys.take(key, value),
             }
         }
         keys
     }
+
+    /// A key by its words: a size of a pixel, or the unit of heights.
+    fn take(&mut self, key: &str, value: &str) {
+        let lower = key.to_lowercase();
+        let is_break = |c: char| !c.is_alphanumeric();
+        let has = |words: &[&str]| lower.split(is_break).any(|word| words.contains(&word));
+        let is_step = has(&["pixel", "pixelsize", "step", "spacing", "dx", "dy"]);
+        if let Some(step) = extent(key, value).filter(|_| is_step) {
+            let [is_x, is_y] = [has(&["x", "dx", "width"]), has(&["y", "dy", "height"])];
+            for (axis, is_other) in [(0, is_y && !is_x), (1, is_x && !is_y)] {
+                if !is_other {
+                    self.steps[axis] = Some(step);
+                }
+            }
+        } else if has(&["unit", "units"]) && has(&["z", "height", "heights", "value"])
+            || has(&["heights", "values"]) && LengthUnit::of(value).is_some()
+        {
+            self.height_unit = Stated::of(value);
+        }
+    }
 }
 
-/// A length such as `10.00 µm`.
-fn extent(text: &str) -> Option<(f64, LengthUnit)> {
-    let (number, unit) = text.split_once(char::is_whitespace)?;
+/// A length such as `10.00 µm`, or a number under a heading such as `Pixel size [µm]`.
+fn extent(key: &str, text: &str) -> Option<(f64, LengthUnit)> {
+    let digits = text.find(|c: char| !(c.is_ascii_digit() || "+-.eE".contains(c)));
+    let (number, unit) = text.split_at(digits.unwrap_or(text.len()));
+    let unit = match unit.trim() {
+        "" => LengthUnit::in_heading(key)?,
+        unit => LengthUnit::of(unit)?,
+    };
     let number: f64 = number.parse().ok()?;
-    Some((number, LengthUnit::of(unit)?)).filter(|(number, _)| *number > 0.0)
+    Some((number, unit)).filter(|(number, _)| *number > 0.0 && number.is_finite())
 }
+
+#[cfg(test)]
+mod tests;

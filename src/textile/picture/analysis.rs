@@ -15,6 +15,7 @@ use super::part::flattest;
 use super::significant::SignificantMaxima;
 use super::source::Picture;
 use super::tile::Tile;
+use super::unwarp::{self, Unwarped};
 use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::{Cancelled, Progress};
 
@@ -64,8 +65,11 @@ pub struct Found {
     pub from_maxima: [[f64; 2]; 2],
     /// The mean cell: of the whole picture, or of the part that lies flat.
     pub tile: Tile,
-    /// Share of the variance of the whole picture that the mean of all its cells explains.
+    /// Share of the variance of the whole picture, laid straight where the cloth was bent, that the
+    /// mean of all its cells explains.
     pub explained_variance: f64,
+    /// The picture laid straight, where the cloth is bent and that explains more.
+    pub unwarped: Option<Unwarped>,
     /// Where repeats drift over the picture: the part that the tile is the mean of (left, top,
     /// width, height, px), and the share of its variance that the tile explains.
     pub flat_part: Option<([usize; 4], f64)>,
@@ -108,8 +112,11 @@ impl Measurements {
     }
 }
 
-/// Near repeats that agree this much better than the mean cell explains are bent or uneven.
+/// Where the mean cell explains less than this share of what near repeats agree in, the picture is
+/// bent or uneven.
 const DRIFT: f64 = 0.6;
+/// And from this share on, nothing is to be gained by laying it straight.
+const LIES_FLAT: f64 = 0.9;
 
 /// Yarns that lie farther from the picture's rows are not taken for lying along them, radians.
 const MAX_TURN: f64 = std::f64::consts::FRAC_PI_8;
@@ -128,6 +135,12 @@ impl Found {
         nearest.filter(|turn| turn.abs() <= MAX_TURN).unwrap_or(0.0)
     }
 
+    /// A picture as its cells lie straight.
+    pub fn laid<'a>(&'a self, luminance: &'a Grid<f64>) -> &'a Grid<f64> {
+        let unwarped = self.unwarped.as_ref();
+        unwarped.map_or(luminance, |unwarped| &unwarped.luminance)
+    }
+
     /// What heights are found on: the whole picture as it is, if it is given, or the mean cell.
     /// Without a scale the whole lattice still has a shape; only synthesized cloth needs one.
     pub fn brightness(
@@ -137,7 +150,7 @@ impl Found {
         n_threads: usize,
     ) -> Brightness {
         match whole {
-            Some(luminance) => Brightness::of_picture(luminance, self.turn_rad()),
+            Some(luminance) => Brightness::of_picture(self.laid(luminance), self.turn_rad()),
             None => Brightness::of(&self.tile, px_per_mm.unwrap_or(1.0), n_threads),
         }
     }
@@ -162,29 +175,59 @@ impl Found {
         let (whole, explained_variance) = Tile::refine(luminance, lattice.basis(), n_threads, all)?;
         let basis = whole.basis();
         let colour = PeriodicColour::of(&whole, picture.colour.as_ref(), basis, n_threads);
-        let wanted = DRIFT * lattice.level;
-        let is_flat = explained_variance >= wanted;
-        let flat = if is_flat {
-            None
-        } else {
-            let parts = |share: f64| progress.step(0.86 + 0.14 * share, "looking for a flat part");
-            flattest(luminance, lattice.basis(), wanted, n_threads, parts)?
-                .filter(|part| part.explained_variance > explained_variance)
-        };
-        Ok(Self {
-            lattice: if is_flat {
-                lattice.with_basis(basis)
-            } else {
+        let is_flat = explained_variance >= LIES_FLAT * lattice.level;
+        let from_maxima = [lattice.p1_px, lattice.p2_px];
+        let drifts = explained_variance < DRIFT * lattice.level;
+        let mut found = Self {
+            lattice: if drifts {
                 lattice
+            } else {
+                lattice.with_basis(basis)
             },
-            from_maxima: [lattice.p1_px, lattice.p2_px],
-            flat_part: flat
-                .as_ref()
-                .map(|part| (part.place, part.explained_variance)),
-            tile: flat.map_or(whole, |part| part.tile),
+            from_maxima,
+            flat_part: None,
+            tile: whole,
             explained_variance,
+            unwarped: None,
             colour,
-        })
+        };
+        if !is_flat {
+            let bent = |progress: &mut Progress<'_>| found.lay(luminance, n_threads, progress);
+            progress.within([0.86, 1.0], bent)?;
+        }
+        Ok(found)
+    }
+
+    /// Lays bent cloth straight, or looks for its flattest part.
+    fn lay(
+        &mut self,
+        luminance: &Grid<f64>,
+        n_threads: usize,
+        progress: &mut Progress<'_>,
+    ) -> Result<(), Cancelled> {
+        let wanted = LIES_FLAT * self.lattice.level;
+        let basis = self.lattice.basis();
+        let parts = |share: f64| progress.step(0.5 * share, "looking for a flat part");
+        let Some(flat) = flattest(luminance, basis, wanted, n_threads, parts)? else {
+            return Ok(());
+        };
+        let bent = |share: f64| progress.step(0.5 + 0.5 * share, "laying bent cloth straight");
+        let straight = unwarp::straight(luminance, &self.lattice, &flat, n_threads, bent)?;
+        let least = self.explained_variance.max(DRIFT * flat.explained_variance);
+        match straight.filter(|all| all.explained_variance > least) {
+            Some(straight) => {
+                self.lattice = self.lattice.with_basis(straight.tile.basis());
+                self.tile = straight.tile;
+                self.explained_variance = straight.explained_variance;
+                self.unwarped = Some(straight.unwarped);
+            }
+            None if self.drifts() && flat.explained_variance > self.explained_variance => {
+                self.flat_part = Some((flat.place, flat.explained_variance));
+                self.tile = flat.tile;
+            }
+            None => {}
+        }
+        Ok(())
     }
 }
 

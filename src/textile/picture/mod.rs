@@ -24,10 +24,12 @@ mod overlay;
 mod part;
 mod refine;
 mod relief;
+mod scale;
 pub mod shading;
 mod significant;
 mod source;
 mod tile;
+mod unwarp;
 mod weave_name;
 
 #[cfg(test)]
@@ -45,10 +47,12 @@ pub use maxima::Maxima;
 pub use output::{About, FILE_NAMES, files};
 pub use overlay::{overlay, range};
 pub use relief::Relief;
+pub use scale::PictureScale;
 pub use shading::ShadingError;
 pub use significant::{Significant, SignificantMaxima};
 pub use source::Picture;
 pub use tile::{Rectangle, Tile};
+pub use unwarp::Unwarped;
 
 use selvedge_foundation::files::FileError;
 use selvedge_foundation::progress::Cancelled;

@@ -9,6 +9,7 @@ use super::autocorrelation::correlated_part;
 use super::basis::{Place, length};
 use super::overlay::{overlay, range};
 use super::relief::{Relief, object};
+use super::scale::PictureScale;
 use selvedge_foundation::files::{FileError, GrayImage, TableWriter, to_json_string};
 use selvedge_foundation::numerics::Grid;
 
@@ -32,6 +33,8 @@ pub const FILE_NAMES: [&str; 8] = [
 pub struct About {
     /// Pixels of the picture to a millimetre, if known.
     pub px_per_mm: Option<f64>,
+    /// How that is known.
+    pub scale: Option<PictureScale>,
     /// The picture's name.
     pub image: String,
     /// The part that was analysed: x, y, width, height.
@@ -64,7 +67,8 @@ pub fn files(
         to_json_string(&reported(analysis, about), json)?.into_bytes(),
     )];
     let lattice = found.map(|f| f.lattice.basis());
-    let drawn = overlay(&analysis.luminance, lattice);
+    let ground = found.map_or(&analysis.luminance, |f| f.laid(&analysis.luminance));
+    let drawn = overlay(ground, lattice);
     all.push(("overlay.png", drawn.to_png(Path::new("overlay.png"))?));
     if let Some(measured) = &analysis.measured {
         let name = "autocorrelation.png";
@@ -72,10 +76,9 @@ pub fn files(
         all.push(("maxima.csv", maxima_table(analysis)?));
     }
     if let Some(Found { tile, .. }) = found {
-        let (low, high) = range(&analysis.luminance);
-        let (w, h) = (analysis.luminance.width(), analysis.luminance.height());
-        let again = tile.patch(w, h, 1.0, 0.0, n_threads);
-        let mut rest = analysis.luminance.clone();
+        let (low, high) = range(ground);
+        let again = tile.patch(ground.width(), ground.height(), 1.0, 0.0, n_threads);
+        let mut rest = ground.clone();
         for (value, made) in rest.values_mut().iter_mut().zip(again.values()) {
             *value += 0.5 * (low + high) - made;
         }
@@ -145,6 +148,7 @@ fn reported(analysis: &Analysis, about: &About) -> impl Serialize {
             correlated_part: correlated_part(width, height),
         },
         px_per_mm: about.px_per_mm,
+        scale: about.scale,
         lattice: lattice,
         thread_grid: lattice.and_then(|l| l.thread_grid).map(|grid| object! {
             p1_px: grid.p1,
@@ -161,6 +165,8 @@ fn reported(analysis: &Analysis, about: &About) -> impl Serialize {
         angle_deg: lattice.map(|l| l.basis().angle_rad().to_degrees()),
         n_cells: lattice.map(|l| (width * height) as f64 / l.basis().area()),
         explained_variance: found.map(|f| f.explained_variance),
+        bend_px: found.and_then(|f| f.unwarped.as_ref()).map(|u| u.bend_px),
+        local_stretch: found.and_then(|f| f.unwarped.as_ref()).map(|u| u.stretch),
         flat_part: found.and_then(|f| f.flat_part).map(|part| part.0),
         explained_variance_of_flat_part: found.and_then(|f| f.flat_part).map(|part| part.1),
         from_maxima_px: found.map(|f| f.from_maxima),

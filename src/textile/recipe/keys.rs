@@ -37,6 +37,11 @@ pub(crate) trait SourceKeys {
     /// The profile files that are named; a recipe may name none.
     fn files(&self) -> ProfileFiles;
 
+    /// Hash of the recipe that the profile files were made from; `None` if they are the source.
+    fn recipe_hash(&self) -> Option<&str> {
+        None
+    }
+
     /// Names the profile files, and the recipe that they were made from.
     fn set_files(&mut self, files: ProfileFiles, recipe_hash: Option<String>);
 }
@@ -84,6 +89,10 @@ macro_rules! keys {
                     self.weft_forward.clone(),
                     self.weft_reverse.clone(),
                 ])
+            }
+
+            fn recipe_hash(&self) -> Option<&str> {
+                self.recipe_hash.as_deref()
             }
 
             fn set_files(

@@ -67,6 +67,11 @@ pub(crate) trait Recipe: SourceKeys {
         None
     }
 
+    /// Units that were assumed because nothing stated them.
+    fn assumed(&self) -> &[String] {
+        &[]
+    }
+
     /// Chooses the side that is touched; whether it has two.
     fn set_side(&mut self, _side: Side) -> bool {
         false

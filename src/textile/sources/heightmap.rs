@@ -7,12 +7,12 @@ use crate::error::TextileError;
 use crate::metrology::{HeightOptions, Measured};
 use crate::recipe::{Checker, HeightsFile, KeySpec, Recipe, defaults, keys, source};
 use crate::surface::{
-    Direction, HeightMap, Probe, Profile, ProfileSet, Representation, SurfaceError,
-    WINDOW_LENGTH_MM,
+    Direction, HeightMap, Levelling, Preparation, Probe, Profile, ProfileSet, Representation,
+    SurfaceError, WINDOW_LENGTH_MM, despiked,
 };
 use crate::unit::LengthUnit;
 use selvedge_foundation::files::{FileError, sha256_hex};
-use selvedge_foundation::numerics::{Grid, Random, to_index};
+use selvedge_foundation::numerics::{Random, to_index};
 
 keys! {
     /// Measured heights (`kind = "heightmap"`, or `"x3p"` for a file of that format).
@@ -45,7 +45,21 @@ keys! {
         /// Which of several fields of the file, from 1.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub(crate) layer: Option<usize>,
-        /// Where the strokes cross, mm from the lower left corner; the middle if not stated.
+        /// Whether a profile or a map whose points are not even is brought to even steps.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        pub(crate) resample: bool,
+        /// The part that is taken: from u, w to u, w, mm from the lower left corner.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub(crate) crop_mm: Option<[f64; 4]>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub(crate) despike: Option<f64>
+            => "Spikes" 2.0 ..= 1000.0 ""
+            "Heights so many robust spreads from those around them are missing",
+        /// What is taken off; the best plane if not stated, nothing of what repeats.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub(crate) level: Option<Levelling>,
+        /// Where the strokes cross, mm from the lower left corner of the part; the middle if not
+        /// stated.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub(crate) place_mm: Option<[f64; 2]>,
         /// Whether the map is one repeat of the textile.
@@ -78,6 +92,10 @@ impl Heightmap {
             range_um: asked.range_um,
             column: asked.column.clone(),
             layer: asked.layer,
+            resample: asked.resample,
+            crop_mm: None,
+            despike: None,
+            level: None,
             place_mm: None,
             periodic: false,
             noise_um: default_noise(),
@@ -93,10 +111,17 @@ impl Heightmap {
             range_um: self.range_um,
             column: self.column.clone(),
             layer: self.layer,
+            resample: self.resample,
         }
     }
 
-    /// The heights of the file. `path` names it in errors.
+    /// Says how heights are prepared.
+    pub(crate) fn set_preparation(&mut self, preparation: Preparation) {
+        (self.crop_mm, self.despike) = (preparation.crop_mm, preparation.despike);
+        self.level = preparation.level;
+    }
+
+    /// The heights of the file that are taken, without spikes. `path` names it in errors.
     pub(crate) fn open(&self, bytes: &[u8], path: &Path) -> Result<Measured, TextileError> {
         let found = sha256_hex([bytes]);
         if self
@@ -108,7 +133,53 @@ impl Heightmap {
             let mend = "restore that file, or import this one";
             return Err(FileError::whole(path, what, mend).into());
         }
-        Measured::open(bytes, path, &self.asked())
+        let mut measured = Measured::open(bytes, path, &self.asked())?;
+        self.crop(&mut measured, path)?;
+        if let Some(spreads) = self.despike {
+            let (left, n) = despiked(&measured.heights_um, spreads);
+            measured.heights_um = left;
+            let line = format!("{n} points are spikes of more than {spreads} spreads: missing");
+            measured.warnings.push(line);
+        }
+        let (n_missing, n) = (measured.n_missing(), measured.heights_um.values().len());
+        if 2 * n_missing > n {
+            let what = format!("{n_missing} of {n} points are missing, more than half");
+            let mend = "measure again, or take a part that has heights: crop_mm (--crop)";
+            return Err(FileError::whole(path, what, mend).into());
+        }
+        Ok(measured)
+    }
+
+    /// Takes the part that is wanted, whole points.
+    fn crop(&self, measured: &mut Measured, path: &Path) -> Result<(), FileError> {
+        let Some([u0, w0, u1, w1]) = self.crop_mm else {
+            return Ok(());
+        };
+        let n = [measured.heights_um.width(), measured.heights_um.height()];
+        let point = |mm: f64, axis: usize| (mm / measured.step_mm[axis]).round();
+        let [from_u, to_u] = [u0, u1].map(|mm| point(mm, 0));
+        // A profile has one row, wherever it lies.
+        let [from_w, to_w] = match n[1] {
+            1 => [0.0, 1.0],
+            _ => [w0, w1].map(|mm| point(mm, 1)),
+        };
+        let sides = [from_u, from_w, to_u - from_u, to_w - from_w];
+        let is_sound = sides.iter().all(|side| (0.0..=1e9).contains(side));
+        let part = measured
+            .heights_um
+            .part(sides.map(to_index))
+            .filter(|_| is_sound);
+        let Some(part) = part else {
+            let [width, height] = [0, 1].map(|axis| n[axis] as f64 * measured.step_mm[axis]);
+            let what = format!("the part {u0},{w0} to {u1},{w1} mm is not on the map");
+            let mend = format!("give crop_mm (--crop) from 0,0 to {width:.2},{height:.2} mm");
+            return Err(FileError::whole(path, what, mend));
+        };
+        let (width, height) = (part.width(), part.height());
+        let line = format!("the part {u0},{w0} to {u1},{w1} mm: {width} × {height} points");
+        measured.warnings.push(line);
+        measured.heights_um = part;
+        Ok(())
     }
 
     /// The strokes over measured heights, by [`Direction::index`].
@@ -119,14 +190,19 @@ impl Heightmap {
     fn level(&self, measured: &Measured, path: &Path) -> Result<HeightMap, TextileError> {
         let map = HeightMap::new(measured.heights_um.clone(), measured.step_mm);
         let map = map.map_err(TextileError::surface(path))?;
-        if measured.is_profile() {
-            return levelled_profile(&map).map_err(TextileError::surface(path));
-        }
-        Ok(if self.periodic {
-            map.periodic()
+        let map = if measured.is_profile() {
+            map.filled()
         } else {
-            map.levelled()
-        })
+            map
+        };
+        let is_repeat = self.periodic && !measured.is_profile();
+        let usual = if is_repeat {
+            Levelling::None
+        } else {
+            Levelling::Plane
+        };
+        let map = map.levelled(self.level.unwrap_or(usual));
+        Ok(if is_repeat { map.periodic() } else { map })
     }
 
     /// Measured heights ready for strokes, and what was done to get there, one line each.
@@ -148,7 +224,12 @@ impl Heightmap {
             return Err(FileError::whole(path, "a profile has no other points", mend).into());
         }
         if is_profile {
-            notes.push("a single profile, its tilt removed; no tester was drawn".to_owned());
+            let tilt = match self.level {
+                None | Some(Levelling::Plane | Levelling::Rows) => "its tilt removed",
+                Some(Levelling::Quadratic) => "its bow removed",
+                Some(Levelling::None) => "its tilt left",
+            };
+            notes.push(format!("a single profile, {tilt}; no tester was drawn"));
         } else if !is_long[1] {
             let height_mm = map.size_mm()[1];
             notes.push(format!(
@@ -213,6 +294,9 @@ impl Recipe for Heightmap {
         for place in self.place_mm.into_iter().flatten() {
             checker.within("source", "place_mm", place, 0.0..=10_000.0)?;
         }
+        for end in self.crop_mm.into_iter().flatten() {
+            checker.within("source", "crop_mm", end, 0.0..=100_000.0)?;
+        }
         checker.file_name("source", "file", Some(&self.file))
     }
 
@@ -273,20 +357,6 @@ fn check_place(place_mm: [f64; 2], size_mm: [f64; 2], path: &Path) -> Result<(),
         size_mm[0], size_mm[1]
     );
     Err(FileError::whole(path, what, mend))
-}
-
-/// A profile without its tilt.
-fn levelled_profile(map: &HeightMap) -> Result<HeightMap, SurfaceError> {
-    // Two equal rows, so that the best plane is the best line.
-    let row = map.filled().heights_um().values().to_vec();
-    let n = row.len();
-    let twice = Grid::from_rows(n, [row.clone(), row].concat()).ok_or(SurfaceError::AllMissing)?;
-    let level = HeightMap::new(twice, map.step_mm())?.levelled();
-    let level = level.heights_um().row(0).to_vec();
-    HeightMap::new(
-        Grid::from_rows(n, level).ok_or(SurfaceError::AllMissing)?,
-        map.step_mm(),
-    )
 }
 
 /// A profile that was measured as one, level: forward along the warp.

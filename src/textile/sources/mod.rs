@@ -134,6 +134,12 @@ impl Source {
         RECIPES.iter().any(|(kind, _)| *kind == self.kind())
     }
 
+    /// Units that were assumed because nothing stated them, in words.
+    pub fn assumed(&self) -> Option<String> {
+        let all = self.keys().assumed();
+        (!all.is_empty()).then(|| format!("{} (no unit is stated)", all.join(", ")))
+    }
+
     /// How its surface is laid out.
     pub fn representation(&self) -> Representation {
         self.keys().representation()

@@ -4,6 +4,7 @@
 use super::heightmap::Heightmap;
 use crate::error::TextileError;
 use crate::metrology::HeightOptions;
+use crate::picture::PictureScale;
 use crate::picture::shading::{Light, Method};
 use crate::recipe::{Checker, HeightsFile, KeySpec, Recipe, defaults, keys};
 use crate::surface::{Probe, Representation};
@@ -29,6 +30,9 @@ keys! {
         pub(crate) picture_sha256: Option<String>,
         pub(crate) px_per_mm: f64
             => "Scale" 2.0 ..= 2000.0 "px/mm" "The picture's scale",
+        /// How that is known.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub(crate) scale: Option<PictureScale>,
         /// The two vectors by which the pattern repeats, px, x to the right and y up.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub(crate) lattice_px: Option<[[f64; 2]; 2]>,
@@ -77,6 +81,11 @@ impl PictureSource {
 
     fn check_places(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
         let within = |key, value, range| checker.within("source", key, value, range);
+        let stated = self.scale.and_then(PictureScale::stated_px_per_mm);
+        if let Some(stated) = stated.filter(|px| !((px / self.px_per_mm - 1.0).abs() < 1e-6)) {
+            let what = format!("scale comes to {stated} px/mm, px_per_mm says otherwise");
+            return Err(checker.wrong("source", "px_per_mm", what, "make both agree"));
+        }
         for place in self.place_mm.into_iter().flatten() {
             within("place_mm", place, 0.0..=10_000.0)?;
         }

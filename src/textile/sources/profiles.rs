@@ -94,6 +94,10 @@ impl Recipe for Profiles {
     fn friction(&self) -> Option<&str> {
         self.friction.as_deref()
     }
+
+    fn assumed(&self) -> &[String] {
+        self.imported.as_ref().map_or(&[], |origin| &origin.assumed)
+    }
 }
 
 /// The name of the importer in manifests.
@@ -109,6 +113,9 @@ pub(crate) struct KesOrigin {
     pub(crate) files: Vec<String>,
     /// Their SHA-256, in the same order.
     pub(crate) sha256: Vec<String>,
+    /// Units that were assumed because nothing stated them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) assumed: Vec<String>,
     /// What one volt stood for, µm, where heights were in volts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) um_per_volt: Option<f64>,

@@ -121,51 +121,13 @@ impl HeightMap {
         }
     }
 
-    /// The map with the plane taken off that fits it best (least squares over what is there).
+    /// The map with other heights.
     #[must_use]
-    pub(crate) fn levelled(&self) -> Self {
-        let [slope_u, slope_w, offset] = self.plane();
-        let heights = &self.heights_um;
-        let level = |column: usize, row: usize| {
-            let plane = offset + slope_u * column as f64 + slope_w * row as f64;
-            heights.row(row)[column] - plane
-        };
+    pub(super) fn with_heights(&self, heights_um: Grid<f64>) -> Self {
         Self {
-            heights_um: Grid::from_fn(heights.width(), heights.height(), level),
+            heights_um,
             ..*self
         }
-    }
-
-    /// Slopes a column and a row and the height at point (0, 0) of the best plane, µm.
-    fn plane(&self) -> [f64; 3] {
-        let middle = [self.heights_um.width(), self.heights_um.height()].map(|n| 0.5 * n as f64);
-        let mean = self.mean_um();
-        // Normal equations about the middle; sums of what is there.
-        let (mut n, mut su, mut sw, mut suu, mut sww, mut suw) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-        let (mut sz, mut suz, mut swz) = (0.0, 0.0, 0.0);
-        for row in 0..self.heights_um.height() {
-            let w = row as f64 - middle[1];
-            for (column, height) in self.heights_um.row(row).iter().enumerate() {
-                if height.is_nan() {
-                    continue;
-                }
-                let (u, z) = (column as f64 - middle[0], height - mean);
-                n += 1.0;
-                su += u;
-                sw += w;
-                suu += u * u;
-                sww += w * w;
-                suw += u * w;
-                sz += z;
-                suz += u * z;
-                swz += w * z;
-            }
-        }
-        let matrix = [[suu, suw, su], [suw, sww, sw], [su, sw, n]];
-        let [slope_u, slope_w, at_middle] =
-            solve(matrix, [suz, swz, sz]).unwrap_or([0.0, 0.0, 0.0]);
-        let offset = mean + at_middle - slope_u * middle[0] - slope_w * middle[1];
-        [slope_u, slope_w, offset]
     }
 
     /// The map with every missing point filled: along its row and along its column between the
@@ -290,41 +252,9 @@ fn fill_gaps(heights: &mut [f64]) {
     }
 }
 
-/// Three linear equations by elimination; `None` if they do not determine the answer.
-fn solve(mut matrix: [[f64; 3]; 3], mut right: [f64; 3]) -> Option<[f64; 3]> {
-    let scale = matrix
-        .iter()
-        .flatten()
-        .fold(0.0_f64, |max, x| max.max(x.abs()));
-    for pivot in 0..3 {
-        let best = (pivot..3).max_by(|&a, &b| {
-            let [a, b] = [a, b].map(|row| matrix[row][pivot].abs());
-            a.total_cmp(&b)
-        })?;
-        matrix.swap(pivot, best);
-        right.swap(pivot, best);
-        if matrix[pivot][pivot].abs() <= 1e-12 * scale {
-            return None;
-        }
-        let (upper, lower) = matrix.split_at_mut(pivot + 1);
-        let (known, rest) = right.split_at_mut(pivot + 1);
-        for (row, side) in lower.iter_mut().zip(rest) {
-            let factor = row[pivot] / upper[pivot][pivot];
-            let pairs = row.iter_mut().zip(&upper[pivot]);
-            pairs.for_each(|(value, above)| *value -= factor * above);
-            *side -= factor * known[pivot];
-        }
-    }
-    let mut answer = [0.0; 3];
-    for row in (0..3).rev() {
-        let known: f64 = (row + 1..3).map(|c| matrix[row][c] * answer[c]).sum();
-        answer[row] = (right[row] - known) / matrix[row][row];
-    }
-    Some(answer)
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::Levelling;
     use super::*;
     use std::f64::consts::{PI, TAU};
 
@@ -363,7 +293,7 @@ mod tests {
                 7.0 + 2.0 * u - 0.5 * w
             }
         };
-        let level = map(tilted).levelled();
+        let level = map(tilted).levelled(Levelling::Plane);
         assert!(level.sq_um() < 1e-9 && level.mean_um().abs() < 1e-9);
         let filled = map(tilted).filled();
         assert_eq!(filled.n_missing(), 0);

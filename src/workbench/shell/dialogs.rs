@@ -16,6 +16,7 @@ use eframe::egui;
 use crate::bench::clips::ending;
 use crate::bench::command::Purpose;
 use crate::shell::ask::AskWords;
+use selvedge_foundation::files::PICTURE_ENDINGS;
 
 /// Set to `field`, this variable of the environment turns the desktop's dialogs off.
 const SWITCH: &str = "SELVEDGE_DIALOGS";
@@ -24,8 +25,6 @@ const MEASUREMENTS: [&str; 17] = [
     "txt", "csv", "dat", "asc", "prn", "x3p", "sur", "pro", "gwy", "gsf", "npy", "png", "tif",
     "tiff", "tmd", "frt", "hfm",
 ];
-/// Endings of pictures that a cloth is found on.
-const PICTURES: [&str; 6] = ["png", "jpg", "jpeg", "tif", "tiff", "bmp"];
 /// Nobody sees a dialog and puts it away in less time.
 const GLANCE: Duration = Duration::from_millis(400);
 /// Whoever asks again after this time does not see the dialog that was asked for first.
@@ -233,7 +232,7 @@ fn dialog(purpose: Purpose, start: Option<&Path>) -> rfd::FileDialog {
         Purpose::OpenDrape => dialog.add_filter("Hanging cloths", &["drape.toml", "toml"]),
         Purpose::OpenHands | Purpose::SaveHands => dialog.add_filter("Hands", &["csv"]),
         Purpose::ImportFiles => dialog.add_filter("Measurements", &MEASUREMENTS),
-        Purpose::OpenPicture(_) => dialog.add_filter("Pictures", &PICTURES),
+        Purpose::OpenPicture(_) => dialog.add_filter("Pictures", &PICTURE_ENDINGS),
         Purpose::OpenDesign | Purpose::SaveDesign => dialog.add_filter("Designs", &["toml"]),
         Purpose::OpenLogs | Purpose::WriteReport | Purpose::AddLibrary => {
             return in_folder(dialog, start);

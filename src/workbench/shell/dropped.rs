@@ -12,13 +12,13 @@ use crate::bench::perspective::Perspective;
 use crate::kit::foot;
 use crate::kit::theme::Palette;
 use crate::shell::window::Workbench;
-use selvedge_foundation::files::read_text;
+use selvedge_foundation::files::{PICTURE_ENDINGS, read_text};
 
 /// What can be dropped, for people.
 const WHAT: &str = "a scene, a drape scene, a recording, a path file, a design, a folder of \
                     textiles or of logs, a picture, measurements";
-/// Endings of pictures.
-const PICTURES: [&str; 8] = ["png", "jpg", "jpeg", "tif", "tiff", "bmp", "webp", "gif"];
+/// Endings of pictures that are not decoded; the pane says so.
+const OTHER_PICTURES: [&str; 2] = ["webp", "gif"];
 /// A text that is longer is none of ours, bytes.
 const MAX_TEXT: u64 = 4 << 20;
 
@@ -35,7 +35,9 @@ fn purpose_of(path: &Path) -> Option<Purpose> {
         "csv" if has_columns(&header(path), &["z_mm", "opening_mm"]) => Some(Purpose::OpenHands),
         "csv" if is_path(path) => Some(Purpose::OpenRecording),
         "md" | "pdf" | "json" | "zip" | "" => None,
-        _ if PICTURES.contains(&ending.as_str()) => Some(Purpose::OpenPicture(Pane::Picture)),
+        ending if PICTURE_ENDINGS.contains(&ending) || OTHER_PICTURES.contains(&ending) => {
+            Some(Purpose::OpenPicture(Pane::Picture))
+        }
         _ => Some(Purpose::ImportFiles),
     }
 }

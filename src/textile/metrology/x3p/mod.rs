@@ -11,8 +11,8 @@ pub use write::{Coding, write};
 
 use std::path::Path;
 
-use super::reading::{Stated, UNEVEN_MEND, even_step};
-use super::{LengthUnit, Reading, n_points};
+use super::reading::{Stated, UNEVEN_MEND, even_step, resampled};
+use super::{HeightOptions, LengthUnit, Reading, n_points};
 use crate::surface::MAX_POINTS;
 use header::{Axis, Header};
 use selvedge_foundation::files::{Archive, FileError, Number, md5_hex};
@@ -30,7 +30,7 @@ struct Points {
 }
 
 /// Reads one surface or profile.
-pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Reading, FileError> {
+pub(super) fn read(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<Reading, FileError> {
     let mut archive = Archive::open(bytes, path)?;
     let main = archive.find("main.xml").ok_or_else(|| {
         let mend = "give an X3P file (ISO 25178-72)";
@@ -49,24 +49,54 @@ pub(super) fn read(bytes: &[u8], path: &Path) -> Result<Reading, FileError> {
         linked(&mut archive, &folder, &header, n, &mut warnings)?
     };
     let mut reading = Reading::of_rows(width, points.heights_m, "X3P", path)?;
-    let steps = [0, 1].map(|axis| {
-        let n_along = [width, height][axis];
-        match &points.places_m[axis] {
-            Some(places_m) if n_along > 1 => even_places(places_m, width, axis).map_err(|what| {
+    let mut steps = [0, 1].map(|axis: usize| header.axes[axis].increment.abs());
+    for axis in [0, 1] {
+        if let Some(places_m) = points.places_m[axis]
+            .as_ref()
+            .filter(|_| [width, height][axis] > 1)
+        {
+            let step = take_places(&mut reading, (places_m, axis), asked.resample);
+            steps[axis] = step.map_err(|what| {
                 let what = format!("{} axis: {what}", ["x", "y"][axis]);
                 FileError::whole(path, what, UNEVEN_MEND)
-            }),
-            _ => Ok(header.axes[axis].increment.abs()),
+            })?;
         }
-    });
-    let [step_x, step_y] = steps;
-    let step_x = step_x?;
-    reading.steps = Some([step_x, if height == 1 { step_x } else { step_y? }]);
+    }
+    if height == 1 {
+        steps[1] = steps[0];
+    }
+    reading.steps = Some(steps);
     reading.length_unit = Stated::Length(LengthUnit::Metre);
     reading.height_unit = Stated::Length(LengthUnit::Metre);
     reading.about = header.about;
-    reading.warnings = warnings;
+    reading.warnings.extend(warnings);
     Ok(reading)
+}
+
+/// The step along an axis of places that are stored point by point, m; brought to even ones where
+/// that is wanted.
+fn take_places(
+    reading: &mut Reading,
+    (places_m, axis): (&[f64], usize),
+    is_resampled: bool,
+) -> Result<f64, String> {
+    let along = places_along(places_m, reading.values.width(), axis)?;
+    let rises = along.windows(2).all(|pair| pair[0] <= pair[1]);
+    match even_step(&along, 0.0) {
+        Ok(step) if step > 0.0 => Ok(step),
+        Ok(_) => Err("places fall".to_owned()),
+        Err(what) if is_resampled && rises => {
+            reading.values = match axis {
+                0 => resampled(&reading.values, &along),
+                _ => resampled(&reading.values.transposed(), &along).transposed(),
+            };
+            reading
+                .warnings
+                .push(format!("brought to even steps: {what}"));
+            Ok((along[along.len() - 1] - along[0]) / (along.len() - 1) as f64)
+        }
+        Err(what) => Err(what),
+    }
 }
 
 /// Warns of a checksum of the XML that is wrong.
@@ -214,9 +244,9 @@ impl Axis {
     }
 }
 
-/// The step of places that are stored point by point, m: even, and the same in every row or
-/// column. Places of missing points are not looked at.
-fn even_places(places_m: &[f64], width: usize, axis: usize) -> Result<f64, String> {
+/// Places that are stored point by point, m: the same in every row or column. Those of missing
+/// points are not looked at.
+fn places_along(places_m: &[f64], width: usize, axis: usize) -> Result<Vec<f64>, String> {
     let n = if axis == 0 {
         width
     } else {
@@ -232,10 +262,7 @@ fn even_places(places_m: &[f64], width: usize, axis: usize) -> Result<f64, Strin
     if along.iter().any(|place| !place.is_finite()) {
         return Err("a whole line has no place".to_owned());
     }
-    let step = even_step(&along, 0.0)?;
-    if step < 0.0 {
-        return Err("places fall".to_owned());
-    }
+    let step = (along[n - 1] - along[0]).abs() / (n - 1) as f64;
     let differs = places_m.iter().enumerate().any(|(i, &place)| {
         let index = if axis == 0 { i % width } else { i / width };
         (place - along[index]).abs() > 0.01 * step
@@ -243,5 +270,5 @@ fn even_places(places_m: &[f64], width: usize, axis: usize) -> Result<f64, Strin
     if differs {
         return Err("places differ from line to line".to_owned());
     }
-    Ok(step)
+    Ok(along)
 }

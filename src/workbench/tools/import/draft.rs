@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::bench::source_file::SourceFile;
 use crate::tools::import::failure::{Failure, Step};
 use selvedge_textile::metrology::HeightOptions;
-use selvedge_textile::surface::Representation;
+use selvedge_textile::surface::{Levelling, Preparation, Representation};
 use selvedge_textile::{
     ColumnRole, Construction, DecimalSign, Description, ImportOptions, KesOptions, KesPlace,
     KnownFigure, LengthUnit, Measurement, ReturnOrder, Unit, id_of,
@@ -47,8 +47,9 @@ pub(crate) struct StrokesDraft {
     pub rate_hz: String,
 }
 
-/// What a file of heights does not say.
+/// What a file of heights does not say, and what is done to them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
 pub(crate) struct HeightsDraft {
     /// The unit of heights.
     pub height_unit: Option<LengthUnit>,
@@ -62,6 +63,14 @@ pub(crate) struct HeightsDraft {
     pub column: String,
     /// Which field of several, from 1.
     pub layer: Option<usize>,
+    /// Whether uneven points are brought to even steps.
+    pub is_resampled: bool,
+    /// The part that is taken, as typed: u, w to u, w, mm.
+    pub crop: String,
+    /// Robust spreads from which on a height is a spike, as typed.
+    pub despike: String,
+    /// What is taken off; `None`: the best plane, or nothing of a repeat.
+    pub level: Option<Levelling>,
     /// Whether it is one repeat of the cloth.
     pub is_periodic: bool,
     /// How it is felt.
@@ -158,6 +167,22 @@ pub(crate) fn number(text: &str, what: &str) -> Result<Option<f64>, String> {
     number.map(Some).ok_or_else(wrong)
 }
 
+/// The corners of a part that were typed, mm, or none.
+fn corners(text: &str) -> Result<Option<[f64; 4]>, String> {
+    let parts: Vec<&str> = text
+        .split([' ', ';'])
+        .filter(|part| !part.is_empty())
+        .collect();
+    if parts.is_empty() {
+        return Ok(None);
+    }
+    let numbers: Result<Vec<_>, _> = parts.iter().map(|part| number(part, "the part")).collect();
+    let numbers: Option<Vec<f64>> = numbers?.into_iter().collect();
+    let four = numbers.and_then(|numbers| numbers.try_into().ok());
+    four.map(Some)
+        .ok_or_else(|| format!("“{text}” is no part; type four numbers in mm: u w u w"))
+}
+
 impl ReaderDraft {
     /// The tester's options.
     pub(crate) fn kes_options(&self) -> Result<KesOptions, Failure> {
@@ -195,6 +220,12 @@ impl ReaderDraft {
                 range_um: number(&typed.range_um, "white above black in µm")?,
                 column: (!column.is_empty()).then(|| column.to_owned()),
                 layer: typed.layer,
+                resample: typed.is_resampled,
+            },
+            preparation: Preparation {
+                crop_mm: corners(&typed.crop).map_err(|line| Failure::at(Step::Meaning, line))?,
+                despike: number(&typed.despike, "robust spreads")?,
+                level: typed.level,
             },
             is_periodic: typed.is_periodic,
             representation: typed.representation,

@@ -117,3 +117,28 @@ fn a_textile_is_dragged_through_the_plane_to_more_of_both_bands() {
         assert_eq!(other.gain_db, before.gain_db, "{}", other.name);
     }
 }
+
+#[test]
+fn levels_that_were_not_measured_have_lines_from_where_to_where_they_may_lie() {
+    let mut all = levels(&window());
+    let n_lines = |all: &[Placed]| {
+        let is_line =
+            |series: &&selvedge_chart::Series| series.style == selvedge_chart::Style::Line;
+        plane::chart(all, None)
+            .series
+            .iter()
+            .filter(is_line)
+            .count()
+    };
+    let before = n_lines(&all);
+    all[1].known_db = Some([[-6.0, 2.0], [-1.0, 4.0]]);
+    assert_eq!(n_lines(&all), before + 2);
+    let chart = plane::chart(&all, None);
+    let [x, y] = all[1].row.level_db;
+    let has = |ends: [[f64; 2]; 2]| chart.series.iter().any(|series| series.points == ends);
+    assert!(has([[x - 6.0, y], [x + 2.0, y]]), "40 Hz");
+    assert!(has([[x, y - 1.0], [x, y + 4.0]]), "320 Hz");
+    let low = chart.columns.points("low_40_db", "high_320_db");
+    assert_eq!(low[1], [-6.0, 4.0]);
+    assert!(low[0][0].is_nan(), "the others are measured");
+}

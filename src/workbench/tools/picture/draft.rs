@@ -4,11 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::bench::source_file::SourceFile;
 use selvedge_textile::picture::shading::{Light, Method};
+use selvedge_textile::picture::{Lattice, PictureScale};
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{HeightScale, id_of};
-
-/// Millimetres to an inch.
-const MM_PER_INCH: f64 = 25.4;
 
 /// Which part of the picture is looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -30,6 +28,10 @@ pub(crate) enum ScaleUnit {
     Dpi,
     /// Pixels to a millimetre.
     PxPerMm,
+    /// Millimetres of a line drawn on the picture.
+    Ruler,
+    /// Threads to a centimetre, with the thread grid that is found.
+    Threads,
 }
 
 /// Which height of a relief is known.
@@ -55,6 +57,9 @@ pub(crate) struct Draft {
     pub scale: String,
     /// In what.
     pub unit: ScaleUnit,
+    /// The ends of the ruler, px of the whole picture; `None` until it is drawn.
+    #[serde(default)]
+    pub ruler: Option<[[f64; 2]; 2]>,
     /// λ of the mean concentration, 1/px; `None`: from the maxima.
     pub lambda: Option<f64>,
     /// Whether the light is estimated.
@@ -84,6 +89,7 @@ impl Default for Draft {
             is_evened: true,
             scale: String::new(),
             unit: ScaleUnit::Dpi,
+            ruler: None,
             lambda: None,
             is_light_estimated: false,
             // A scanner's lamp shines along the way of its carriage.
@@ -110,13 +116,39 @@ fn number(typed: &str) -> Option<f64> {
 }
 
 impl Draft {
-    /// The scale, px/mm; `None` while it is no positive number.
-    pub(crate) fn px_per_mm(&self) -> Option<f64> {
+    /// What is known of the scale; `None` while it is no positive number.
+    pub(crate) fn picture_scale(&self) -> Option<PictureScale> {
+        if self.unit == ScaleUnit::Threads {
+            let counts: Option<Vec<f64>> = self.scale.split_whitespace().map(number).collect();
+            return match counts?[..] {
+                [both] => Some(PictureScale::ThreadsPerCm([both; 2])),
+                [warp, weft] => Some(PictureScale::ThreadsPerCm([warp, weft])),
+                _ => None,
+            };
+        }
         let typed = number(&self.scale)?;
-        Some(match self.unit {
-            ScaleUnit::Dpi => typed / MM_PER_INCH,
-            ScaleUnit::PxPerMm => typed,
-        })
+        match self.unit {
+            ScaleUnit::Dpi => Some(PictureScale::Dpi(typed)),
+            ScaleUnit::PxPerMm => Some(PictureScale::PxPerMm(typed)),
+            ScaleUnit::Ruler => {
+                let [[x0, y0], [x1, y1]] = self.ruler.filter(|_| !self.is_slanted())?;
+                let is_line = (x1 - x0).hypot(y1 - y0) >= 1.0;
+                is_line.then_some(PictureScale::Ruler([x0, y0, x1, y1, typed]))
+            }
+            ScaleUnit::Threads => None,
+        }
+    }
+
+    /// Whether it is seen at a slant, so that no ruler holds for all of it.
+    fn is_slanted(&self) -> bool {
+        matches!(self.part, Part::Corners(_))
+    }
+
+    /// The scale, px/mm, as far as it needs no threads, or with those of this lattice.
+    pub(crate) fn px_per_mm(&self, lattice: Option<&Lattice>) -> Option<f64> {
+        let scale = self.picture_scale()?;
+        let counted = || scale.px_per_mm(lattice?).ok();
+        scale.stated_px_per_mm().or_else(counted)
     }
 
     /// What is known of the height; `None` while it is no positive number.
@@ -158,8 +190,17 @@ impl Draft {
 
     /// What is still to be said before there can be a textile.
     pub(crate) fn missing(&self) -> Option<&'static str> {
-        if self.px_per_mm().is_none() {
-            return Some("Type the picture's scale: what the scanner was set to, dpi");
+        if self.picture_scale().is_none() {
+            return Some(match self.unit {
+                ScaleUnit::Dpi | ScaleUnit::PxPerMm => {
+                    "Type the picture's scale: what the scanner was set to, dpi"
+                }
+                ScaleUnit::Ruler if self.is_slanted() => {
+                    "A ruler does not hold at a slant: type dpi or px/mm of what the corners span"
+                }
+                ScaleUnit::Ruler => "Drag the ruler on the picture and type its length, mm",
+                ScaleUnit::Threads => "Type threads to a centimetre, warp and weft: 24 20",
+            });
         }
         if self.height_scale().is_none() {
             return Some("Type how high the cloth's relief is, µm, or its SMD");
@@ -186,7 +227,7 @@ impl Draft {
     pub(crate) fn has_same_shape(&self, other: &Self) -> bool {
         let light = |draft: &Self| (!draft.is_light_estimated).then_some(draft.light);
         self.has_same_tile(other)
-            && self.px_per_mm() == other.px_per_mm()
+            && self.picture_scale() == other.picture_scale()
             && self.is_light_estimated == other.is_light_estimated
             && light(self) == light(other)
             && (self.is_cell, self.method) == (other.is_cell, other.method)
@@ -208,15 +249,36 @@ mod tests {
     #[test]
     fn a_scale_is_read_in_either_unit_and_never_guessed() {
         let mut draft = Draft::default();
-        assert_eq!(draft.px_per_mm(), None);
+        assert_eq!(draft.px_per_mm(None), None);
         draft.scale = "600".to_owned();
-        let px_per_mm = draft.px_per_mm().unwrap();
+        let px_per_mm = draft.px_per_mm(None).unwrap();
         assert!((px_per_mm - 23.622).abs() < 1e-3, "{px_per_mm}");
         draft.unit = ScaleUnit::PxPerMm;
         draft.scale = " 23,5".to_owned();
-        assert_eq!(draft.px_per_mm(), Some(23.5));
+        assert_eq!(draft.px_per_mm(None), Some(23.5));
         draft.scale = "-3".to_owned();
-        assert_eq!(draft.px_per_mm(), None);
+        assert_eq!(draft.px_per_mm(None), None);
+    }
+
+    #[test]
+    fn threads_and_a_ruler_are_scales_too() {
+        let mut draft = Draft {
+            unit: ScaleUnit::Threads,
+            scale: "24 20,5".to_owned(),
+            ..Draft::default()
+        };
+        let counted = Some(PictureScale::ThreadsPerCm([24.0, 20.5]));
+        assert_eq!(draft.picture_scale(), counted);
+        assert_eq!(draft.px_per_mm(None), None, "none before they are found");
+        draft.scale = "1 2 3".to_owned();
+        assert_eq!(draft.picture_scale(), None);
+        draft.unit = ScaleUnit::Ruler;
+        draft.scale = "10".to_owned();
+        assert_eq!(draft.picture_scale(), None, "not drawn yet");
+        draft.ruler = Some([[0.0, 5.0], [200.0, 5.0]]);
+        assert_eq!(draft.px_per_mm(None), Some(20.0));
+        draft.part = Part::Corners([[0.0; 2]; 4]);
+        assert!(draft.missing().unwrap().contains("slant"), "at a slant");
     }
 
     #[test]

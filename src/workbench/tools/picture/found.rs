@@ -8,7 +8,8 @@ use crate::tools::picture::draft::Draft;
 use crate::tools::picture::images::Image;
 use selvedge_foundation::numerics::Grid;
 use selvedge_textile::picture::{
-    Autocorrelation, Directions, Found as Tiled, Maxima, Picture, Relief, SignificantMaxima,
+    Autocorrelation, Directions, Found as Tiled, Lattice, Maxima, Picture, Relief,
+    SignificantMaxima,
 };
 use selvedge_textile::surface::Direction;
 
@@ -110,6 +111,12 @@ impl Found {
             inputs,
             ..Self::default()
         }
+    }
+
+    /// The lattice, once it is found.
+    pub(crate) fn lattice(&self) -> Option<&Lattice> {
+        let tiled = self.cloth.as_deref()?.found.as_deref().ok()?;
+        Some(&tiled.lattice)
     }
 
     /// The picture's hash, once it is read.

@@ -79,6 +79,7 @@ impl Picture {
         let draft = Draft {
             source: Some(path.into()),
             part: Part::Whole,
+            ruler: None,
             lambda: None,
             name: String::new(),
             ..self.draft.clone()

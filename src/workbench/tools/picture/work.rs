@@ -18,7 +18,7 @@ use selvedge_textile::picture::brightness::Brightness;
 use selvedge_textile::picture::shading::{ShadingError, ShadingOptions, Shape};
 use selvedge_textile::picture::{
     Autocorrelation, DirectionOptions, Directions, EvenLight, Found as Tiled, Lattice, Maxima,
-    Picture, Relief, SignificantMaxima, even_light,
+    Picture, PictureError, Relief, SignificantMaxima, even_light,
 };
 use selvedge_textile::surface::{Direction, HeightMap, ProfileSet};
 use selvedge_textile::{
@@ -221,7 +221,7 @@ fn cloth(
     };
     let images = found.as_deref().ok().map(|tiled| {
         let corner = tiled.flat_part.map_or([0, 0], |([x, y, ..], _)| [x, y]);
-        let part = images::part(luminance, &tiled.lattice, corner);
+        let part = images::part(tiled.laid(luminance), &tiled.lattice, corner);
         let [again, rest] = images::synthesized(&part, &tiled.tile, n_threads());
         [images::with_lattice(&part, &tiled.lattice), again, rest]
     });
@@ -247,7 +247,8 @@ fn shaped(
         error => End::Failed(Step::Light, error.to_string()),
     };
     let whole = (!inputs.is_cell).then_some(luminance);
-    let brightness = tiled.brightness(whole, inputs.px_per_mm(), n_threads());
+    let px_per_mm = px_per_mm(inputs, tiled)?;
+    let brightness = tiled.brightness(whole, px_per_mm, n_threads());
     let light = (!inputs.is_light_estimated).then_some(inputs.light);
     let options = ShadingOptions {
         method: inputs.method.unwrap_or_default(),
@@ -267,11 +268,12 @@ fn made(
         error => End::Failed(Step::Felt, error.to_string()),
     };
     let file = inputs.source.as_ref().map(SourceFile::name);
-    let px_per_mm = inputs.px_per_mm().unwrap_or_default();
+    let px_per_mm = px_per_mm(inputs, tiled)?.unwrap_or_default();
     let mut about = PictureTextile {
         name: inputs.final_name(),
         construction: Construction::Other,
         px_per_mm,
+        px_scale: inputs.picture_scale(),
         scale: inputs.height_scale().unwrap_or_default(),
         picture: file.map(|name| [name, loaded.sha256.clone()]),
         size_px: Some(relief.brightness.size_px),
@@ -321,6 +323,13 @@ fn made(
             files,
         }]),
     })
+}
+
+/// Pixels to a millimetre, if anything is known of it.
+fn px_per_mm(inputs: &Draft, tiled: &Tiled) -> Result<Option<f64>, End> {
+    let scale = inputs.picture_scale().map(|s| s.px_per_mm(&tiled.lattice));
+    let failed = |error: PictureError| End::Failed(Step::Picture, error.to_string());
+    scale.transpose().map_err(failed)
 }
 
 /// The lamp, as far as it is known where it stands.

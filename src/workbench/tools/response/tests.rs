@@ -14,6 +14,7 @@ use selvedge_foundation::geometry::Velocity;
 use selvedge_render::RenderScene;
 use selvedge_render::array::{ContactInspector, TextileResponse};
 use selvedge_render::scene::LoadedScene;
+use selvedge_textile::Uncertainty;
 
 struct Pane {
     response: TextileResponse,
@@ -188,4 +189,40 @@ fn nothing_odd_harms_the_pane() {
         harness.run();
         assert!(harness.state().commands.is_empty(), "{size:?}");
     }
+}
+
+#[test]
+fn a_textile_that_was_not_measured_is_shaded_from_where_to_where_it_may_lie() {
+    let mut harness = window(pane());
+    harness.run();
+    let state = harness.state();
+    let view = |known: Option<Uncertainty>| ResponseView {
+        textile: String::new(),
+        rotation_deg: 0.0,
+        factors: [1.0; 2],
+        uncertainty: known,
+        place: None,
+        curves: &state.curves,
+        probe: state.probe,
+        moving: None,
+        scale: AmplitudeScale::default(),
+    };
+    let known = Uncertainty {
+        levels: vec![[40.0, 0.0, -6.0, 2.0], [320.0, 0.0, -1.0, 4.0]],
+        ..Uncertainty::default()
+    };
+    let plain = chart::over_speed(&view(None));
+    let shaded = chart::over_speed(&view(Some(known)));
+    assert_eq!(shaded.bands.len(), plain.bands.len() + 2);
+    let of = |name: &str| shaded.bands.iter().find(|band| band.name == name).unwrap();
+    for (name, width_db) in [("40 Hz is known to", 8.0), ("320 Hz is known to", 5.0)] {
+        let points = &of(name).points;
+        let is_wide = |[_, low, high]: &[f64; 3]| (high - low - width_db).abs() < 1e-9;
+        assert!(
+            points.len() > 10 && points.iter().all(is_wide),
+            "{name}: {points:?}"
+        );
+    }
+    let ends = shaded.columns.points("a40_low_db", "a320_high_db");
+    assert_eq!(ends[0], [-6.0, 4.0]);
 }

@@ -15,6 +15,7 @@ use crate::tools::import::view::section;
 use crate::tools::import::view::section::{Ends, Wish};
 use crate::tools::import::work::{Heights, Strokes};
 use selvedge_chart::{At, Axis, Band, Chart, Extent, Ink, Rule, Series, Style, Weight};
+use selvedge_foundation::numerics::to_index;
 use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_textile::surface::{Direction, HeightMap};
 use selvedge_textile::{KesImport, KesReading, KesStroke, Mark, MarkKind, TextileAxis};
@@ -337,6 +338,19 @@ pub(crate) fn show_profile(ui: &mut Ui, heights: &Heights) {
     };
     show_lane(ui, &lane);
     ui.advance_cursor_after_rect(room);
+}
+
+/// Shows the heights along u at a place across, as they are without their tilt.
+pub(crate) fn show_row(ui: &Ui, rect: Rect, map: &HeightMap, w_mm: f64) {
+    let heights_um = map.heights_um();
+    let row = to_index(w_mm / map.step_mm()[1]).min(heights_um.height().saturating_sub(1));
+    let lane = Lane {
+        name: "along the line",
+        rect,
+        chart: &profile_chart(map, &Envelope::of(heights_um.row(row))),
+        figures: Vec::new(),
+    };
+    show_lane(ui, &lane);
 }
 
 /// A profile over its length.

@@ -11,7 +11,7 @@ use crate::tools::import::failure::Failure;
 use crate::tools::import::work::{Found, Heights};
 use selvedge_foundation::quantity::fixed;
 use selvedge_textile::LengthUnit;
-use selvedge_textile::surface::Representation;
+use selvedge_textile::surface::{Levelling, Representation};
 
 /// Width of a field for a number, points.
 const NUMBER: f32 = 84.0;
@@ -60,6 +60,7 @@ pub(crate) fn show(
         );
     });
     show_numbers(ui, typed, heights, asks);
+    show_preparation(ui, typed, asks);
     show_layer(ui, typed, heights);
     show_ways(ui, typed);
 }
@@ -69,7 +70,7 @@ fn show_numbers(
     ui: &mut Ui,
     typed: &mut HeightsDraft,
     heights: Option<&Heights>,
-    asks: impl Fn(&str) -> Need,
+    asks: impl Fn(&str) -> Need + Copy,
 ) {
     let step = heights.map_or_else(
         || "mm".to_owned(),
@@ -104,6 +105,37 @@ fn show_numbers(
             label,
             &mut typed.column,
             ("only one", NUMBER, asks("--column")),
+        );
+    });
+}
+
+/// What is done to the heights before the tester is drawn over them.
+fn show_preparation(ui: &mut Ui, typed: &mut HeightsDraft, asks: impl Fn(&str) -> Need) {
+    row(ui, "part", "mm: u w to u w", |ui, label| {
+        let part = ("all of it", NUMBER, asks("--crop"));
+        text(ui, label, &mut typed.crop, part);
+    });
+    row(ui, "spikes from", "spreads on are missing", |ui, label| {
+        let spreads = ("none go", NUMBER, asks("--despike"));
+        text(ui, label, &mut typed.despike, spreads);
+    });
+    row(ui, "taken off", "", |ui, _| {
+        let usual = if typed.is_periodic {
+            "nothing: a repeat has no tilt"
+        } else {
+            "the plane that fits best"
+        };
+        let ways = [
+            (Levelling::None, "nothing"),
+            (Levelling::Plane, "the plane that fits best"),
+            (Levelling::Quadratic, "polynomial of 2nd order"),
+            (Levelling::Rows, "plane, then rows' medians"),
+        ];
+        choose_of(
+            ui,
+            "Taken off",
+            &mut typed.level,
+            (&ways, usual, Need::Optional),
         );
     });
 }
@@ -182,12 +214,8 @@ fn show_ways(ui: &mut Ui, typed: &mut HeightsDraft) {
     line(ui, LINE, |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         ui.checkbox(&mut typed.is_periodic, "one repeat of the cloth")
-            .on_hover_text("Strokes go on at the other side of the map; its tilt is not taken off");
+            .on_hover_text("Strokes go on at the other side of the map");
+        ui.checkbox(&mut typed.is_resampled, "even steps")
+            .on_hover_text("Uneven points are brought to even steps, along straight lines");
     });
-    let tilt = if typed.is_periodic {
-        "tilt is left: a repeat has none"
-    } else {
-        "tilt is taken off once: the plane that fits best"
-    };
-    note(ui, tilt, Tone::Quiet);
 }

@@ -14,6 +14,7 @@ use crate::kit::widgets::relief::{BAR_ROOM, Relief, paint_height_bar};
 use crate::kit::widgets::text::{button, named, paint_quiet, quiet, toggle};
 use crate::tools::import::Import;
 use crate::tools::import::draft::EvaluationDraft;
+use crate::tools::import::view::curves;
 use crate::tools::import::work::Heights;
 use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity::{fixed, with_unit};
@@ -22,6 +23,9 @@ use selvedge_textile::surface::{Probe, Representation};
 /// Room for numbers left of the map and below it, points.
 const LEFT: f32 = 36.0;
 const BELOW: f32 = 30.0;
+/// Height of the profile along the line, and what its axis takes of it, points.
+const LINE_PLOT: f32 = 92.0;
+const AXIS_BELOW: f32 = 18.0;
 /// Height of a place in the list, points.
 const LINE: f32 = 22.0;
 /// Width of the list beside the map, points.
@@ -44,7 +48,8 @@ pub(crate) fn show(ui: &mut Ui, importing: &mut Import, heights: &Heights, map: 
     let Some(relief) = &heights.relief else {
         return;
     };
-    let whole = ui.available_rect_before_wrap().intersect(ui.clip_rect());
+    let all = ui.available_rect_before_wrap().intersect(ui.clip_rect());
+    let (whole, line) = all.split_top_bottom_at_y(all.bottom() - LINE_PLOT);
     let (upper, lower) = split(whole, relief, importing.draft.looked.places.len());
     let room = Rect::from_min_max(
         upper.min + vec2(LEFT, 6.0),
@@ -74,7 +79,11 @@ pub(crate) fn show(ui: &mut Ui, importing: &mut Import, heights: &Heights, map: 
         (heights, is_felt_along),
         &mut importing.draft.looked,
     );
-    ui.advance_cursor_after_rect(whole);
+    let places = places_of(&importing.draft.looked, relief.size_mm);
+    let last = places.last().map_or(0.0, |[_, w_mm]| *w_mm);
+    let line = line.with_max_y(line.bottom() - AXIS_BELOW);
+    curves::show_row(ui, line, heights.import.map(), last);
+    ui.advance_cursor_after_rect(all);
 }
 
 /// The places of the map and of the list: side by side where the map leaves room.

@@ -48,6 +48,13 @@ pub(crate) fn show(
         Some(Err(_)) | None => {}
     }
     if let Some(reading) = &strokes.reading {
+        for unit in &reading.assumed {
+            note(
+                ui,
+                &format!("assumed: {unit}, no unit is stated"),
+                Tone::Wrong,
+            );
+        }
         for words in &reading.notes {
             note(ui, words, Tone::Quiet);
         }

@@ -12,6 +12,7 @@ use crate::kit::theme::Palette;
 use crate::kit::widgets::relief3d;
 use crate::kit::widgets::relief3d::View3d;
 use crate::kit::widgets::text::paint_quiet;
+use crate::tools::picture::draft::ScaleUnit;
 use crate::tools::picture::found::{Cloth, Found, Made};
 use crate::tools::picture::state::Picture;
 use crate::tools::picture::textures::Textures;
@@ -104,6 +105,13 @@ fn show_card(ui: &mut Ui, card: usize, picture: &mut Picture, found: Option<&Fou
             .map(|loaded| {
                 let rect = textures.paint(&painter, room, card, &loaded.image);
                 frame::show(ui, rect, loaded.size, &mut draft.part);
+                if let Some(ends) = draft
+                    .ruler
+                    .as_mut()
+                    .filter(|_| draft.unit == ScaleUnit::Ruler)
+                {
+                    frame::show_ruler(ui, rect, loaded.size, ends);
+                }
             }),
         1 => cloth.and_then(|cloth| correlation(&painter, room, cloth, textures)),
         2 => cloth

@@ -27,7 +27,7 @@ use selvedge_textile::picture::{Directions, Relief};
 /// Room for the name of a field, points.
 const NAME: f32 = 52.0;
 /// Width of a typed number, points.
-const NUMBER: f32 = 72.0;
+const NUMBER: f32 = 56.0;
 
 /// Shows the steps.
 pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) {
@@ -85,17 +85,39 @@ fn show_picture(
     show_failure(ui, found, Step::Picture);
     let draft = &mut picture.draft;
     row_of(ui, NAME, ("scale", ""), |ui, label| {
-        let need = Need::of(draft.px_per_mm().is_none());
-        text(ui, label, &mut draft.scale, ("600", NUMBER, need));
+        let need = Need::of(draft.picture_scale().is_none());
+        let hint = match draft.unit {
+            ScaleUnit::Dpi => "600",
+            ScaleUnit::PxPerMm => "23.6",
+            ScaleUnit::Ruler => "10 mm",
+            ScaleUnit::Threads => "24 20",
+        };
+        text(ui, label, &mut draft.scale, (hint, NUMBER, need));
         let choices = [
             (ScaleUnit::Dpi, "dpi", "Dots to an inch, as scanners count"),
             (ScaleUnit::PxPerMm, "px/mm", "Pixels to a millimetre"),
+            (
+                ScaleUnit::Ruler,
+                "ruler",
+                "A line dragged on the picture; type its millimetres",
+            ),
+            (
+                ScaleUnit::Threads,
+                "per cm",
+                "Threads to a centimetre, warp and weft, with the grid that is found",
+            ),
         ];
         toggles(ui, &mut draft.unit, &choices);
     });
     let size = found
         .and_then(|found| found.loaded.as_deref())
         .map(|loaded| loaded.size);
+    if let Some(size) = size.filter(|_| draft.unit == ScaleUnit::Ruler) {
+        let [w, h] = size.map(|n| n as f64);
+        draft
+            .ruler
+            .get_or_insert([0.25, 0.75].map(|share| [(share * w).round(), (0.5 * h).round()]));
+    }
     if let Some(size) = size {
         show_part(ui, draft, size);
     }
@@ -121,7 +143,7 @@ fn show_friction(ui: &mut Ui, draft: &Draft, found: Option<&Found>, commands: &m
     use crate::bench::command::friction::PictureAtHand;
 
     let correlated = found.and_then(|found| found.correlated.as_deref());
-    let ready = correlated.zip(draft.px_per_mm());
+    let ready = correlated.zip(draft.px_per_mm(found.and_then(Found::lattice)));
     let refusal = ready.is_none().then_some("Type the picture’s scale first");
     let tip = "Its friction along the middle, felt on an electrovibration screen";
     let is_pressed = button(ui, "Friction…", tip, refusal);
@@ -191,7 +213,7 @@ fn show_repeats(ui: &mut Ui, draft: &mut Draft, cloth: Option<&Cloth>) {
             for (name, vector) in [("p1", lattice.p1_px), ("p2", lattice.p2_px)] {
                 note(
                     ui,
-                    &vector_words(name, vector, draft.px_per_mm()),
+                    &vector_words(name, vector, draft.px_per_mm(Some(lattice))),
                     Tone::Quiet,
                 );
             }
@@ -206,6 +228,13 @@ fn show_repeats(ui: &mut Ui, draft: &mut Draft, cloth: Option<&Cloth>) {
                 .map_or(tiled.explained_variance, |(_, share)| share);
             let share = with_unit(100.0 * share, 0, "%");
             step_title(ui, 5, "Tile", &format!("explains {share} of the variance"));
+            if let Some(unwarped) = &tiled.unwarped {
+                let bend = with_unit(unwarped.bend_px, 1, "px");
+                let stretch = with_unit(100.0 * unwarped.stretch, 1, "%");
+                let words =
+                    format!("Bent by up to {bend}, local stretch {stretch}: laid straight.");
+                note(ui, &words, Tone::Quiet);
+            }
             if tiled.flat_part.is_some() {
                 note(
                     ui,

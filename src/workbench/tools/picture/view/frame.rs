@@ -22,7 +22,7 @@ pub(crate) fn show(ui: &Ui, rect: Rect, size: [usize; 2], part: &mut Part) {
             let places = corners.map(|place| on_screen(rect, size, place));
             outline(ui, &places);
             for (nth, corner) in corners.iter_mut().enumerate() {
-                *corner = handle(ui, (rect, size), nth, *corner);
+                *corner = handle(ui, (rect, size), &corner_name(nth), *corner);
             }
         }
         Part::Region(region) => {
@@ -33,11 +33,20 @@ pub(crate) fn show(ui: &Ui, rect: Rect, size: [usize; 2], part: &mut Part) {
             outline(ui, &places);
             for nth in 0..4 {
                 let before = corner(ends, nth);
-                let after = handle(ui, (rect, size), nth, before);
+                let after = handle(ui, (rect, size), &corner_name(nth), before);
                 (ends[EDGES[nth][0]], ends[EDGES[nth][1]]) = (after[0], after[1]);
             }
             *region = region_of(ends, size);
         }
+    }
+}
+
+/// Shows a ruler over the picture, its ends to be dragged.
+pub(crate) fn show_ruler(ui: &Ui, rect: Rect, size: [usize; 2], ends: &mut [[f64; 2]; 2]) {
+    let size = size.map(|n| n as f64);
+    line(ui, ends.map(|end| on_screen(rect, size, end)));
+    for (end, name) in ends.iter_mut().zip(["First", "Second"]) {
+        *end = handle(ui, (rect, size), &format!("{name} end of the ruler"), *end);
     }
 }
 
@@ -63,25 +72,30 @@ fn on_screen(rect: Rect, size: [f64; 2], [x, y]: [f64; 2]) -> Pos2 {
 }
 
 fn outline(ui: &Ui, places: &[Pos2; 4]) {
-    let palette = Palette::in_ui(ui);
     for (nth, from) in places.iter().enumerate() {
-        let line = [*from, places[(nth + 1) % 4]];
-        // Dark below light: the line shows on every cloth.
-        ui.painter()
-            .line_segment(line, Stroke::new(3.0, palette.rim));
-        let white = Stroke::new(1.0, eframe::egui::Color32::WHITE);
-        ui.painter().line_segment(line, white);
+        line(ui, [*from, places[(nth + 1) % 4]]);
     }
 }
 
-/// A corner that can be dragged; says where it is, px.
-fn handle(ui: &Ui, (rect, size): (Rect, [f64; 2]), nth: usize, place: [f64; 2]) -> [f64; 2] {
+/// A line that shows on every cloth: dark below light.
+fn line(ui: &Ui, ends: [Pos2; 2]) {
+    let dark = Stroke::new(3.0, Palette::in_ui(ui).rim);
+    ui.painter().line_segment(ends, dark);
+    let white = Stroke::new(1.0, eframe::egui::Color32::WHITE);
+    ui.painter().line_segment(ends, white);
+}
+
+fn corner_name(nth: usize) -> String {
     let name = ["Upper left", "Upper right", "Lower right", "Lower left"][nth];
+    format!("{name} corner of the part")
+}
+
+/// A place that can be dragged; says where it is, px.
+fn handle(ui: &Ui, (rect, size): (Rect, [f64; 2]), label: &str, place: [f64; 2]) -> [f64; 2] {
     let at = on_screen(rect, size, place);
     let grip = Rect::from_center_size(at, vec2(2.0 * GRIP, 2.0 * GRIP));
-    let response = ui.interact(grip, ui.scope_id().with(("corner", nth)), Sense::drag());
-    let label = format!("{name} corner of the part");
-    response.widget_info(|| WidgetInfo::labeled(eframe::egui::Role::Slider, true, &label));
+    let response = ui.interact(grip, ui.scope_id().with(label), Sense::drag());
+    response.widget_info(|| WidgetInfo::labeled(eframe::egui::Role::Slider, true, label));
     let response = response.on_hover_cursor(CursorIcon::Crosshair);
     let palette = Palette::in_ui(ui);
     let knob = Rect::from_center_size(at, vec2(7.0, 7.0));
