@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::*;
 use crate::metrology::samples::{all, map, sur};
+use crate::metrology::text::tests::{TWO_COLUMNS, read_text};
 use selvedge_foundation::files::Number;
 
 /// Heights alike to `um`, missing in the same places.

@@ -328,4 +328,4 @@ fn extent(key: &str, text: &str) -> Option<(f64, LengthUnit)> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -4,9 +4,12 @@ use super::super::{HeightOptions, LengthUnit, Measured};
 use crate::error::TextileError;
 use std::path::Path;
 
-const TWO_COLUMNS: &str = "0.0 1.0\n0.1 2.0\n0.2 3.0\n";
+pub(in super::super) const TWO_COLUMNS: &str = "0.0 1.0\n0.1 2.0\n0.2 3.0\n";
 
-fn read_text(text: &str, asked: &HeightOptions) -> Result<Measured, TextileError> {
+pub(in super::super) fn read_text(
+    text: &str,
+    asked: &HeightOptions,
+) -> Result<Measured, TextileError> {
     Measured::open(text.as_bytes(), Path::new("a.txt"), asked)
 }
 
