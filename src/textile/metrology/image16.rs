@@ -30,7 +30,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, asked: &HeightOptions) -> Result<R
         .and_then(LengthUnit::of)
         .map(LengthUnit::um);
     if let (Some(asked), Some((low, high)), Some(um)) = (asked.range_um, stated, in_um)
-        && !(((high - low) * um / asked - 1.0).abs() <= 0.01)
+        && ((high - low) * um / asked - 1.0).abs() > 0.01
     {
         let found = (high - low) * um;
         let what = format!("the picture states {found} µm from black to white, not {asked} µm");

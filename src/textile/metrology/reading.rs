@@ -273,7 +273,7 @@ impl Reading {
         let stated = stated.map(|(steps, unit)| steps.map(|step| step * unit.um() / 1000.0));
         let steps_mm = match (asked.step_mm, self.steps) {
             (Some(step_mm), _) => {
-                let is_other = |stated: &f64| !((stated / step_mm - 1.0).abs() <= SAME_STEP);
+                let is_other = |stated: &f64| (stated / step_mm - 1.0).abs() > SAME_STEP;
                 if let Some(stated) = stated.iter().flatten().find(|stated| is_other(stated)) {
                     let what = format!("the points lie {stated} mm apart, not {step_mm} mm");
                     let mend = "leave step_mm (--step-mm) out, or correct the file";

@@ -82,7 +82,7 @@ impl PictureSource {
     fn check_places(&self, checker: &Checker<'_>) -> Result<(), TextileError> {
         let within = |key, value, range| checker.within("source", key, value, range);
         let stated = self.scale.and_then(PictureScale::stated_px_per_mm);
-        if let Some(stated) = stated.filter(|px| !((px / self.px_per_mm - 1.0).abs() < 1e-6)) {
+        if let Some(stated) = stated.filter(|px| (px / self.px_per_mm - 1.0).abs() >= 1e-6) {
             let what = format!("scale comes to {stated} px/mm, px_per_mm says otherwise");
             return Err(checker.wrong("source", "px_per_mm", what, "make both agree"));
         }

@@ -105,7 +105,9 @@ impl HeightMap {
                 let mut present: Vec<f64> =
                     values.iter().copied().filter(|z| !z.is_nan()).collect();
                 let middle = median(&mut present);
-                values.iter_mut().for_each(|height| *height -= middle);
+                for height in values {
+                    *height -= middle;
+                }
             }
         }
         self.with_heights(heights)

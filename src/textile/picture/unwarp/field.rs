@@ -207,7 +207,7 @@ impl Found {
             })
             .collect();
         let all: f64 = known.iter().map(|one| one.2).sum();
-        if !(all > 0.0) {
+        if all <= 0.0 {
             return Local::default();
         }
         let mean = |of: &dyn Fn(&(Place, Place, f64)) -> f64| {

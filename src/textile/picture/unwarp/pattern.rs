@@ -17,6 +17,9 @@ const MAX_STEP_PX: f64 = 1.0;
 /// worse is not believed.
 const MAX_OFF: f64 = 0.35;
 const MIN_MATCH: f64 = 0.25;
+/// A pixel's value, the pattern's there with its slope, and how much it counts.
+type Seen = (f64, f64, Place, f64);
+
 /// What a piece that is not believed counts beside others.
 const DOUBT: f64 = 1e-3;
 
@@ -34,7 +37,7 @@ impl Pattern {
         let basis = tile.basis();
         let cell_px = lattice
             .thread_grid
-            .map_or(basis.longer(), |grid| grid.longer());
+            .map_or_else(|| basis.longer(), |grid| grid.longer());
         Self {
             tile,
             basis,
@@ -91,9 +94,9 @@ impl Pattern {
                 let (cell, slope) = self.with_slope(mix(mix(at, 1.0, off, 1.0), 1.0, bent, 1.0));
                 (value, cell, slope, weight)
             });
-            let seen: Vec<(f64, f64, Place, f64)> = seen.collect();
-            let mean = |of: &dyn Fn(&(f64, f64, Place, f64)) -> f64| {
-                let sum = |of: &dyn Fn(&(f64, f64, Place, f64)) -> f64| -> f64 {
+            let seen: Vec<Seen> = seen.collect();
+            let mean = |of: &dyn Fn(&Seen) -> f64| {
+                let sum = |of: &dyn Fn(&Seen) -> f64| -> f64 {
                     seen.iter().map(|one| one.3 * of(one)).sum()
                 };
                 sum(of) / sum(&|_| 1.0).max(f64::MIN_POSITIVE)
@@ -108,7 +111,7 @@ impl Pattern {
             if gain <= 0.0 {
                 break;
             }
-            let left = |one: &(f64, f64, Place, f64)| one.0 - value - gain * (one.1 - cell);
+            let left = |one: &Seen| one.0 - value - gain * (one.1 - cell);
             let pull = [0, 1].map(|axis| mean(&|one| gain * one.2[axis] * left(one)));
             let square = |a: usize, b: usize| mean(&|one| gain * gain * one.2[a] * one.2[b]);
             let (xx, xy, yy) = (square(0, 0), square(0, 1), square(1, 1));
@@ -121,7 +124,7 @@ impl Pattern {
             } else {
                 1.0
             };
-            if !(long > 1e-3 && long.is_finite()) {
+            if long <= 1e-3 || !long.is_finite() {
                 break;
             }
             off = mix(off, 1.0, go, share);

@@ -71,12 +71,8 @@ fn show_picture(
         if button(ui, "Another…", "Choose another picture", None) {
             commands.push(FileCommand::Ask(Purpose::OpenPicture(Pane::Picture)).into());
         }
-        if button(
-            ui,
-            "Begin anew",
-            "Let go of the picture and of what was typed",
-            None,
-        ) {
+        let tip = "Let go of the picture and of what was typed";
+        if button(ui, "Begin anew", tip, None) {
             picture.clear();
         }
         #[cfg(feature = "friction")]
@@ -84,6 +80,36 @@ fn show_picture(
     });
     show_failure(ui, found, Step::Picture);
     let draft = &mut picture.draft;
+    show_scale(ui, draft);
+    let size = found
+        .and_then(|found| found.loaded.as_deref())
+        .map(|loaded| loaded.size);
+    if let Some(size) = size.filter(|_| draft.unit == ScaleUnit::Ruler) {
+        let [w, h] = size.map(|n| n as f64);
+        let ends = || [0.25, 0.75].map(|share| [(share * w).round(), (0.5 * h).round()]);
+        draft.ruler.get_or_insert_with(ends);
+    }
+    if let Some(size) = size {
+        show_part(ui, draft, size);
+    }
+    let was_evened = found
+        .and_then(|found| found.correlated.as_deref())
+        .is_some_and(|correlated| correlated.was_evened);
+    row_of(
+        ui,
+        NAME,
+        ("light", if was_evened { "was evened out" } else { "" }),
+        |ui, _| {
+            let tip = "Divide out light that changes slowly over the picture";
+            if toggle(ui, "even out", draft.is_evened, tip) {
+                draft.is_evened = !draft.is_evened;
+            }
+        },
+    );
+}
+
+/// The scale, and in what it is typed.
+fn show_scale(ui: &mut Ui, draft: &mut Draft) {
     row_of(ui, NAME, ("scale", ""), |ui, label| {
         let need = Need::of(draft.picture_scale().is_none());
         let hint = match draft.unit {
@@ -109,32 +135,6 @@ fn show_picture(
         ];
         toggles(ui, &mut draft.unit, &choices);
     });
-    let size = found
-        .and_then(|found| found.loaded.as_deref())
-        .map(|loaded| loaded.size);
-    if let Some(size) = size.filter(|_| draft.unit == ScaleUnit::Ruler) {
-        let [w, h] = size.map(|n| n as f64);
-        draft
-            .ruler
-            .get_or_insert([0.25, 0.75].map(|share| [(share * w).round(), (0.5 * h).round()]));
-    }
-    if let Some(size) = size {
-        show_part(ui, draft, size);
-    }
-    let was_evened = found
-        .and_then(|found| found.correlated.as_deref())
-        .is_some_and(|correlated| correlated.was_evened);
-    row_of(
-        ui,
-        NAME,
-        ("light", if was_evened { "was evened out" } else { "" }),
-        |ui, _| {
-            let tip = "Divide out light that changes slowly over the picture";
-            if toggle(ui, "even out", draft.is_evened, tip) {
-                draft.is_evened = !draft.is_evened;
-            }
-        },
-    );
 }
 
 /// Hands what is looked at of the picture to the pane that shows friction.
