@@ -211,8 +211,9 @@ impl Found {
         let Some(flat) = flattest(luminance, basis, wanted, n_threads, parts)? else {
             return Ok(());
         };
+        let lattices = (&self.lattice, self.tile.basis());
         let bent = |share: f64| progress.step(0.5 + 0.5 * share, "laying bent cloth straight");
-        let straight = unwarp::straight(luminance, &self.lattice, &flat, n_threads, bent)?;
+        let straight = unwarp::straight(luminance, lattices, &flat, n_threads, bent)?;
         let least = self.explained_variance.max(DRIFT * flat.explained_variance);
         match straight.filter(|all| all.explained_variance > least) {
             Some(straight) => {

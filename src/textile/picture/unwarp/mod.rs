@@ -42,11 +42,12 @@ pub(super) struct Straight {
     pub(super) explained_variance: f64,
 }
 
-/// Lays a picture straight, from its flattest part outward; `None` where that explains what was not
-/// looked at no better than the picture as it is. `step` may stop it.
+/// Lays a picture straight whose lattice over all of it is `whole`, from its flattest part outward;
+/// `None` where that explains what was not looked at no better than the picture as it is. `step` may
+/// stop it.
 pub(super) fn straight<E>(
     luminance: &Grid<f64>,
-    lattice: &Lattice,
+    (lattice, whole): (&Lattice, Basis),
     flat: &FlatPart,
     n_threads: usize,
     mut step: impl FnMut(f64) -> Result<(), E>,
@@ -77,8 +78,7 @@ pub(super) fn straight<E>(
         });
     }
     step(1.0)?;
-    let whole = Tile::refine(luminance, lattice.basis(), n_threads, |_| Ok(()))?.0;
-    let before = held_out(luminance, whole.basis(), n_threads);
+    let before = held_out(luminance, whole, n_threads);
     Ok(best.filter(|straight| {
         let basis = straight.tile.basis();
         let after = held_out(&straight.unwarped.luminance, basis, n_threads);

@@ -94,6 +94,9 @@ fn what_repeats_nowhere_is_not_laid_straight() {
         tile: Tile::fold(&noise, lattice.basis(), 1),
         explained_variance: 0.1,
     };
-    let none = straight(&noise, &lattice, &flat, 1, |_| Ok::<(), ()>(())).unwrap();
+    let none = straight(&noise, (&lattice, lattice.basis()), &flat, 1, |_| {
+        Ok::<(), ()>(())
+    })
+    .unwrap();
     assert!(none.is_none(), "noise");
 }

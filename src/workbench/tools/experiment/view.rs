@@ -275,18 +275,19 @@ impl ActiveSession {
 
     fn ground(&self, trial: Option<&Trial>, finger: Option<Point>) -> Ground {
         let target = trial.and_then(|trial| target_of(&self.design, trial));
-        // A vibration is felt wherever the finger is, and nothing lies there.
+        // A vibration is felt wherever the finger is, a cloth where it hangs: nothing lies there.
         let is_played = !self.sequence().is_empty() && !self.layout.is_stacked();
+        let is_elsewhere = is_played || self.hanging_textile().is_some();
         Ground {
             size_mm: self.layout.size_mm,
-            slots: if is_played {
+            slots: if is_elsewhere {
                 Vec::new()
             } else {
                 slots(&self.layout, trial)
             },
             picture: target.and_then(|id| self.materials.library_view.picture(id)),
-            finger: finger.filter(|_| !is_played),
-            feels: self.is_felt(),
+            finger: finger.filter(|_| !is_elsewhere),
+            feels: self.is_felt() && self.hanging_textile().is_none(),
         }
     }
 
