@@ -130,11 +130,14 @@ impl Dialect {
         number(cell, decimal)
     }
 
-    /// The numbers of a line; `None` if one of its cells is none, or all of them hold nothing.
+    /// The numbers of a line; `None` if one of its cells is none, or all of them hold nothing and do
+    /// not say `nan`, as a row of a map does that is wholly missing.
     fn numbers(self, line: &str) -> Option<Vec<(f64, i32)>> {
         let cells = self.cells(line);
         let numbers: Option<Vec<_>> = cells.iter().map(|cell| self.number(cell)).collect();
-        numbers.filter(|numbers| numbers.iter().any(|(number, _)| !number.is_nan()))
+        let is_missing =
+            !cells.is_empty() && cells.iter().all(|cell| cell.eq_ignore_ascii_case("nan"));
+        numbers.filter(|numbers| is_missing || numbers.iter().any(|(number, _)| !number.is_nan()))
     }
 }
 
