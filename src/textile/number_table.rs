@@ -130,14 +130,13 @@ impl Dialect {
         number(cell, decimal)
     }
 
-    /// The numbers of a line; `None` if one of its cells is none, or all of them hold nothing and do
-    /// not say `nan`, as a row of a map does that is wholly missing.
+    /// The numbers of a line; `None` if one of its cells is none, or all hold nothing (`nan`s do).
     fn numbers(self, line: &str) -> Option<Vec<(f64, i32)>> {
         let cells = self.cells(line);
         let numbers: Option<Vec<_>> = cells.iter().map(|cell| self.number(cell)).collect();
-        let is_missing =
-            !cells.is_empty() && cells.iter().all(|cell| cell.eq_ignore_ascii_case("nan"));
-        numbers.filter(|numbers| is_missing || numbers.iter().any(|(number, _)| !number.is_nan()))
+        let says_nan = |cell: &&str| cell.eq_ignore_ascii_case("nan");
+        let is_row = !cells.is_empty() && cells.iter().all(says_nan);
+        numbers.filter(|all| is_row || all.iter().any(|(number, _)| !number.is_nan()))
     }
 }
 

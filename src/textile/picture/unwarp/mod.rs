@@ -43,8 +43,8 @@ pub(super) struct Straight {
 }
 
 /// Lays a picture straight whose lattice over all of it is `whole`, from its flattest part outward;
-/// `None` where that explains what was not looked at no better than the picture as it is. `step` may
-/// stop it.
+/// `None` where that explains what was not looked at no better than the picture as it is. `step`
+/// may stop it.
 pub(super) fn straight<E>(
     luminance: &Grid<f64>,
     (lattice, whole): (&Lattice, Basis),
