@@ -36,7 +36,7 @@ impl StimulusHashes {
         library: &Library,
         progress: &mut Progress<'_>,
     ) -> Result<Self, ExperimentError> {
-        let loaded = library.load_all(&textiles_of(design), progress)?;
+        let loaded = library.load_all(&design.textile_ids(), progress)?;
         let hashed = loaded.iter().map(|textile| -> Result<_, TextileError> {
             Ok((textile.id().to_owned(), textile.content_hash()?))
         });
@@ -94,19 +94,4 @@ impl StimulusHashes {
         }
         sha256_hex(parts.iter().map(String::as_bytes))
     }
-}
-
-/// The ids of a design's textiles, each once, in order.
-fn textiles_of(design: &Design) -> Vec<String> {
-    let ids = design
-        .stimuli
-        .iter()
-        .filter_map(|stimulus| match &stimulus.source {
-            Source::Textile { id, .. } => Some(id.clone()),
-            _ => None,
-        });
-    let mut ids: Vec<String> = ids.collect();
-    ids.sort();
-    ids.dedup();
-    ids
 }

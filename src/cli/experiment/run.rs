@@ -3,11 +3,9 @@
 //! The experimenter lays what is said and types what the participant answers. Vibrations and
 //! virtual textiles are presented by the window; here only where something else presents them.
 
-use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, IsTerminal as _, Write as _};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant, SystemTime};
 
@@ -16,12 +14,12 @@ use clap::Args;
 use super::super::{CliError, output, terminal};
 use super::desk::{Bench, Desk, Ended, Moment};
 use selvedge_experiment::by_hand::needs_array;
-use selvedge_experiment::design::{Design, Source, Stimulus, Subject};
+use selvedge_experiment::design::{Design, Subject};
 use selvedge_experiment::session::{Found, Origin, Session, log_path};
 use selvedge_experiment::{Apparatus, Course, Participant, Participants, Particulars, Proof};
 use selvedge_foundation::files;
 use selvedge_foundation::quantity::moment_of;
-use selvedge_textile::Textile;
+use selvedge_textile::Manifest;
 use selvedge_textile::tactile::Tuning;
 
 /// What presents cloth on the table.
@@ -147,11 +145,9 @@ fn apparatus(args: &RunArgs, design: &Design) -> Result<Apparatus, CliError> {
 
 /// The tuning that the design asks for: its own, or its library's.
 fn tuning(args: &RunArgs, design: &Design) -> Result<Tuning, CliError> {
-    let is_textile = |source: &Source| matches!(source, Source::Textile { .. });
-    let mut sources = design.stimuli.iter().map(|stimulus| &stimulus.source);
     match design.tuning {
         Some(tuning) => Ok(tuning),
-        None if sources.any(is_textile) => {
+        None if !design.textile_ids().is_empty() => {
             Ok(design.open_library(folder_of(args), None)?.default_tuning())
         }
         None => Ok(Tuning::default()),
@@ -206,8 +202,9 @@ fn opened(
         session
     };
     output::make_folder(&folder, "choose another with --folder")?;
-    let textiles = textiles(args, &design)?;
-    let origin = Origin::file(device, &args.design).knowing(textiles.iter().map(AsRef::as_ref));
+    let known = manifests(args, &design)?;
+    let known = known.iter().map(|(id, manifest)| (id.as_str(), manifest));
+    let origin = Origin::file(device, &args.design).knowing(known);
     let nth = Participants::enrol(&folder, &participant, now)?;
     Ok(Session::create(
         &folder,
@@ -217,19 +214,15 @@ fn opened(
     )?)
 }
 
-/// The textiles that the design asks about, whose levels may be known to a band only.
-fn textiles(args: &RunArgs, design: &Design) -> Result<Vec<Arc<Textile>>, CliError> {
-    let id = |stimulus: &Stimulus| match &stimulus.source {
-        Source::Textile { id, .. } => Some(id.clone()),
-        _ => None,
-    };
-    let ids: BTreeSet<String> = design.stimuli.iter().filter_map(id).collect();
+/// What is known of the textiles that the design asks about: levels may be known to a band only.
+fn manifests(args: &RunArgs, design: &Design) -> Result<Vec<(String, Manifest)>, CliError> {
+    let ids = design.textile_ids();
     if ids.is_empty() {
         return Ok(Vec::new());
     }
     let library = design.open_library(folder_of(args), None)?;
-    let load = |id: &String| Ok(library.load(id)?);
-    ids.iter().map(load).collect()
+    let of = |id: String| Ok((id.clone(), library.manifest(&id)?));
+    ids.into_iter().map(of).collect()
 }
 
 /// The folder of the design, from which its library is found.

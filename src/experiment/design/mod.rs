@@ -127,6 +127,18 @@ impl Design {
         adaptation.is_some_and(Adaptation::is_vibration) || self.stimuli.iter().any(is_played)
     }
 
+    /// The ids of its textiles, each once, in order.
+    pub fn textile_ids(&self) -> Vec<String> {
+        let id = |one: &Stimulus| match &one.source {
+            Source::Textile { id, .. } => Some(id.clone()),
+            Source::RealCloth(_) | Source::Vibration { .. } => None,
+        };
+        let mut ids: Vec<String> = self.stimuli.iter().filter_map(id).collect();
+        ids.sort();
+        ids.dedup();
+        ids
+    }
+
     /// Opens the design's library: the one that it names, seen from the folder that the design's
     /// file lies in, or the shipped one. What is built from recipes is kept in `cache`.
     ///

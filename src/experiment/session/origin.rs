@@ -5,7 +5,7 @@ use std::path::{Component, Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use selvedge_textile::Textile;
+use selvedge_textile::Manifest;
 
 /// What a session is begun with.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -41,12 +41,14 @@ impl<'a> Origin<'a> {
 
     /// The same with how far levels of its textiles may be off.
     #[must_use]
-    pub fn knowing<'t>(mut self, textiles: impl IntoIterator<Item = &'t Textile>) -> Self {
-        let words = |textile: &Textile| {
-            let known = textile.manifest().uncertainty.as_ref()?;
-            Some((textile.id().to_owned(), known.words()?))
+    pub fn knowing<'t>(
+        mut self,
+        manifests: impl IntoIterator<Item = (&'t str, &'t Manifest)>,
+    ) -> Self {
+        let words = |(id, manifest): (&str, &Manifest)| {
+            Some((id.to_owned(), manifest.uncertainty.as_ref()?.words()?))
         };
-        self.uncertain = textiles.into_iter().filter_map(words).collect();
+        self.uncertain = manifests.into_iter().filter_map(words).collect();
         self
     }
 

@@ -19,7 +19,7 @@ use selvedge_render::contact::{Contact, FeltSurface, Tip};
 use selvedge_render::scene::{Display, LoadedScene, PlacedTextile, Scene};
 use selvedge_render::stylus::{StylusDrive, StylusSettings};
 use selvedge_textile::tactile::Tuning;
-use selvedge_textile::{Library, Textile};
+use selvedge_textile::{Library, Manifest};
 
 /// What a session presents.
 #[derive(Debug)]
@@ -38,9 +38,10 @@ pub(crate) struct Materials {
 }
 
 impl Materials {
-    /// The textiles that are presented.
-    pub(crate) fn textiles(&self) -> impl Iterator<Item = &Textile> {
-        self.loaded.textiles().iter().map(AsRef::as_ref)
+    /// What is known of the textiles that are presented, with their ids.
+    pub(crate) fn manifests(&self) -> impl Iterator<Item = (&str, &Manifest)> {
+        let textiles = self.loaded.textiles().iter();
+        textiles.map(|textile| (textile.id(), textile.manifest()))
     }
 
     /// Where they are; `None` is the program.

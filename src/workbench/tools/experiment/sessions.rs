@@ -67,7 +67,7 @@ impl Experiment {
             let profile = profile.map_err(|error| error.to_string())?;
             let origin = Origin::file(&device, &beside)
                 .piloting(is_pilot)
-                .knowing(materials.textiles())
+                .knowing(materials.manifests())
                 .with("program", program_sha256())
                 .with("library", materials.hashes.all())
                 .with("scene", materials.scene_sha256())
