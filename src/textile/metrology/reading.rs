@@ -264,6 +264,30 @@ impl Reading {
         Err(FileError::whole(path, what, mend))
     }
 
+    /// The even step of places along an axis, 0 along rows and 1 across them; where `may_resample`
+    /// the heights are brought to even steps if they are not, with a warning.
+    ///
+    /// # Errors
+    /// Where the places are not even.
+    pub(super) fn even_step(
+        &mut self,
+        (places, axis): (&[f64], usize),
+        slack: f64,
+        may_resample: bool,
+    ) -> Result<f64, String> {
+        let what = match even_step(places, slack) {
+            Err(what) if may_resample => what,
+            step => return step,
+        };
+        self.values = match axis {
+            0 => resampled(&self.values, places),
+            _ => resampled(&self.values.transposed(), places).transposed(),
+        };
+        self.warnings.push(format!("brought to even steps: {what}"));
+        let n = places.len();
+        Ok((places[n - 1] - places[0]) / (n - 1) as f64)
+    }
+
     fn step_mm(&mut self, path: &Path, asked: &HeightOptions) -> Result<[f64; 2], FileError> {
         let mend = "give step_mm (--step-mm), the distance of points in mm";
         let wrong = |what: String| FileError::whole(path, what, mend);
@@ -302,7 +326,7 @@ const SAME_STEP: f64 = 0.01;
 
 /// Heights at uneven places, brought to as many even ones between the first and the last, along
 /// each row by straight lines; missing where one of both neighbours is. Places rise or fall.
-pub(super) fn resampled(values: &Grid<f64>, places: &[f64]) -> Grid<f64> {
+fn resampled(values: &Grid<f64>, places: &[f64]) -> Grid<f64> {
     let n = places.len();
     let (first, last) = (places[0], places[n - 1]);
     let sign = (last - first).signum();

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use super::reading::{About, Stated, UNEVEN_MEND, even_step, resampled};
+use super::reading::{About, Stated, UNEVEN_MEND};
 use super::{HeightOptions, LengthUnit, Reading, n_points};
 use crate::number_table::{NoTable, RawTable, table_with_gaps};
 use selvedge_foundation::files::FileError;
@@ -45,20 +45,12 @@ fn take_places(
     }
     let places = &columns.numbers()[x];
     let slack = rounding(places, columns.table.quanta[x]);
-    let step = match even_step(places, slack) {
-        Ok(step) => step,
-        Err(what) if asked.resample && rises(places) => {
-            reading.values = resampled(&reading.values, places);
-            reading
-                .warnings
-                .push(format!("brought to even steps: {what}"));
-            (places[places.len() - 1] - places[0]) / (places.len() - 1) as f64
-        }
-        Err(what) => {
-            let what = format!("from line {}: {what}", columns.table.lines[0]);
-            return Err(FileError::whole(path, what, UNEVEN_MEND));
-        }
-    };
+    let may_resample = asked.resample && rises(places);
+    let step = reading.even_step((places, 0), slack, may_resample);
+    let step = step.map_err(|what| {
+        let what = format!("from line {}: {what}", columns.table.lines[0]);
+        FileError::whole(path, what, UNEVEN_MEND)
+    })?;
     if step < 0.0 {
         reading.values.values_mut().reverse();
     }

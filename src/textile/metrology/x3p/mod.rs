@@ -11,7 +11,7 @@ pub use write::{Coding, write};
 
 use std::path::Path;
 
-use super::reading::{Stated, UNEVEN_MEND, even_step, resampled};
+use super::reading::{Stated, UNEVEN_MEND};
 use super::{HeightOptions, LengthUnit, Reading, n_points};
 use crate::surface::MAX_POINTS;
 use header::{Axis, Header};
@@ -82,20 +82,11 @@ fn take_places(
 ) -> Result<f64, String> {
     let along = places_along(places_m, reading.values.width(), axis)?;
     let rises = along.windows(2).all(|pair| pair[0] <= pair[1]);
-    match even_step(&along, 0.0) {
-        Ok(step) if step > 0.0 => Ok(step),
-        Ok(_) => Err("places fall".to_owned()),
-        Err(what) if is_resampled && rises => {
-            reading.values = match axis {
-                0 => resampled(&reading.values, &along),
-                _ => resampled(&reading.values.transposed(), &along).transposed(),
-            };
-            reading
-                .warnings
-                .push(format!("brought to even steps: {what}"));
-            Ok((along[along.len() - 1] - along[0]) / (along.len() - 1) as f64)
-        }
-        Err(what) => Err(what),
+    let step = reading.even_step((&along, axis), 0.0, is_resampled && rises)?;
+    if step > 0.0 {
+        Ok(step)
+    } else {
+        Err("places fall".to_owned())
     }
 }
 
