@@ -13,7 +13,7 @@ use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_textile::n_threads;
 use selvedge_textile::picture::{
     self, About, Analysis, AnalysisOptions, DirectionOptions, EvenLight, Found, Picture,
-    PictureScale, Place, Unwarped,
+    PictureScale, Place,
 };
 
 /// A picture, and what is known about it.
@@ -225,15 +225,10 @@ fn warnings(analysis: &Analysis) -> Vec<String> {
                     brightness says nothing of its relief";
         lines.push(line.to_owned());
     }
-    if let Some(Unwarped {
-        bend_px, stretch, ..
-    }) = &found.unwarped
-    {
+    if let Some(unwarped) = &found.unwarped {
         lines.push(format!(
-            "the cloth is bent: {} from straight at most, local stretch {}; it was laid straight, \
-             and the rest is of that",
-            with_unit(*bend_px, 1, "px"),
-            with_unit(100.0 * stretch, 1, "%"),
+            "the cloth is bent: {}; it was laid straight, and the rest is of that",
+            unwarped.words()
         ));
     }
     if found.drifts() {

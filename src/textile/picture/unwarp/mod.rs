@@ -18,6 +18,7 @@ use super::tile::Tile;
 use field::Field;
 use pattern::Pattern;
 use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::quantity::with_unit;
 
 /// What is laid straight must explain this much more of what was not looked at.
 const MIN_GAIN: f64 = 0.03;
@@ -33,6 +34,15 @@ pub struct Unwarped {
     pub bend_px: f64,
     /// The largest local stretch, as a share.
     pub stretch: f64,
+}
+
+impl Unwarped {
+    /// How far it was bent, in words.
+    pub fn words(&self) -> String {
+        let bend = with_unit(self.bend_px, 1, "px");
+        let stretch = with_unit(100.0 * self.stretch, 1, "%");
+        format!("{bend} from straight at most, local stretch {stretch}")
+    }
 }
 
 /// What was laid straight, its mean cell, and the share of its variance that this explains.

@@ -229,10 +229,7 @@ fn show_repeats(ui: &mut Ui, draft: &mut Draft, cloth: Option<&Cloth>) {
             let share = with_unit(100.0 * share, 0, "%");
             step_title(ui, 5, "Tile", &format!("explains {share} of the variance"));
             if let Some(unwarped) = &tiled.unwarped {
-                let bend = with_unit(unwarped.bend_px, 1, "px");
-                let stretch = with_unit(100.0 * unwarped.stretch, 1, "%");
-                let words =
-                    format!("Bent by up to {bend}, local stretch {stretch}: laid straight.");
+                let words = format!("Laid straight: {}.", unwarped.words());
                 note(ui, &words, Tone::Quiet);
             }
             if tiled.flat_part.is_some() {
