@@ -96,11 +96,8 @@ impl Bench {
     pub(crate) fn feel_stylus(&mut self, stylus: Option<(StylusDrive, String)>) {
         let (drive, words) = stylus.unzip();
         self.send(selvedge_engine::Command::SetStylus(drive.map(Box::new)));
-        if words != self.device.stylus {
-            let said = words.clone().unwrap_or_else(|| "off".to_owned());
-            self.engine.say_what("stylus", said);
-        }
-        self.device.stylus = words;
+        let before = std::mem::replace(&mut self.device.stylus, words.clone());
+        self.say_felt("stylus", [before, words]);
     }
 
     /// Lets the engine feel a cloth that hangs, told in a line, or the scene again; the log of
@@ -108,9 +105,16 @@ impl Bench {
     pub(crate) fn feel_cloth(&mut self, cloth: Option<(ClothDrive, String)>) {
         let (drive, words) = cloth.unzip();
         self.send(selvedge_engine::Command::SetCloth(drive.map(Box::new)));
-        let said = words.clone().unwrap_or_else(|| "off".to_owned());
-        self.engine.say_what("cloth", said);
-        self.device.cloth = words;
+        let before = std::mem::replace(&mut self.device.cloth, words.clone());
+        self.say_felt("cloth", [before, words]);
+    }
+
+    /// The log of links hears what is felt in place of the rest, where that changed.
+    fn say_felt(&mut self, what: &'static str, [before, now]: [Option<String>; 2]) {
+        if before != now {
+            self.engine
+                .say_what(what, now.unwrap_or_else(|| "off".to_owned()));
+        }
     }
 
     fn explore_alone(&mut self) {
