@@ -295,7 +295,10 @@ impl Tool for Draping {
         self.look.cloth = self.look.cloth.min(self.chosen.cloths.len() - 1);
     }
 
-    fn export(&mut self, _pane: Pane, _bench: &mut Bench) -> Result<Exported, &'static str> {
+    fn export(&mut self, _pane: Pane, bench: &mut Bench) -> Result<Exported, &'static str> {
+        if bench.has_session() {
+            return Err("A session hangs this cloth: what it is stays covered");
+        }
         let seconds = self.seconds();
         let sheet = seconds.columns();
         if sheet.n_rows() == 0 {
