@@ -43,6 +43,8 @@ const SHARE: f64 = 0.9;
 const SIGMAS: f64 = 1.645;
 /// Points on either side of one whose median it is compared with.
 const AROUND: usize = 2;
+/// Powers of u and w of a polynomial of second order.
+const POWERS: [[i32; 2]; 6] = [[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [0, 2]];
 /// Deviations that the spread is taken of, about.
 const MAX_DEVIATIONS: usize = 1 << 20;
 
@@ -113,23 +115,23 @@ impl HeightMap {
         self.with_heights(heights)
     }
 
-    fn take_off_polynomial(&self, heights: &mut Grid<f64>, order: usize) {
+    fn take_off_polynomial(&self, heights: &mut Grid<f64>, order: i32) {
         let n = [heights.width(), heights.height()];
         let half = n.map(|n| 0.5 * n as f64);
+        let mut powers = POWERS.to_vec();
+        // A single row has no second way.
+        powers.retain(|[u, w]| u + w <= order && (n[1] > 1 || *w == 0));
+        let n_terms = powers.len();
         // Places from −1 to 1, so that powers are of one size.
         let terms = |column: usize, row: usize| {
             let u = (column as f64 - half[0]) / half[0];
             let w = (row as f64 - half[1]) / half[1];
-            let all = [(0, 1.0), (1, u), (2, u * u), (1, w), (2, u * w), (2, w * w)];
-            // A single row has no second way.
-            let n_terms = if n[1] == 1 { 3 } else { 6 };
-            let wanted = move |&(of, _): &(usize, f64)| of <= order;
-            all.into_iter()
-                .take(n_terms)
-                .filter(wanted)
-                .map(|(_, term)| term)
+            let mut terms = [0.0; POWERS.len()];
+            for (term, [of_u, of_w]) in terms.iter_mut().zip(&powers) {
+                *term = u.powi(*of_u) * w.powi(*of_w);
+            }
+            terms
         };
-        let n_terms = terms(0, 0).count();
         let mut matrix = vec![vec![0.0; n_terms]; n_terms];
         let mut right = vec![0.0; n_terms];
         let mean = self.mean_um();
@@ -138,18 +140,19 @@ impl HeightMap {
                 if height.is_nan() {
                     continue;
                 }
-                for (i, a) in terms(column, row).enumerate() {
-                    for (sum, b) in matrix[i].iter_mut().zip(terms(column, row)) {
+                let terms = terms(column, row);
+                for ((sums, side), a) in matrix.iter_mut().zip(&mut right).zip(terms) {
+                    for (sum, b) in sums.iter_mut().zip(terms) {
                         *sum += a * b;
                     }
-                    right[i] += a * (height - mean);
+                    *side += a * (height - mean);
                 }
             }
         }
         let fitted = solve(matrix, right).unwrap_or_else(|| vec![0.0; n_terms]);
         for row in 0..n[1] {
             for (column, height) in heights.row_mut(row).iter_mut().enumerate() {
-                let pairs = terms(column, row).zip(&fitted);
+                let pairs = terms(column, row).into_iter().zip(&fitted);
                 *height -= mean + pairs.map(|(term, share)| term * share).sum::<f64>();
             }
         }
