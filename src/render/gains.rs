@@ -31,10 +31,7 @@ impl GainTerms {
     pub(crate) fn of(tuning: &Tuning, band: Band, [manifest_db, scene_db]: [f64; 2]) -> Self {
         Self {
             master_db: tuning.gain_db,
-            band_db: match band {
-                Band::Low => tuning.gain_40_db,
-                Band::High => tuning.gain_320_db,
-            },
+            band_db: tuning.own_band_gain_db(band),
             manifest_db,
             scene_db,
             compression_db: 0.0,

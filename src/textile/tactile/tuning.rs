@@ -89,11 +89,15 @@ impl Tuning {
 
     /// Master gain and gain of the band, dB.
     pub fn band_gain_db(&self, band: Band) -> f64 {
-        let own_db = match band {
+        self.gain_db + self.own_band_gain_db(band)
+    }
+
+    /// Gain of the band alone, dB.
+    pub fn own_band_gain_db(&self, band: Band) -> f64 {
+        match band {
             Band::Low => self.gain_40_db,
             Band::High => self.gain_320_db,
-        };
-        self.gain_db + own_db
+        }
     }
 
     /// Gain that compression gives a textile of this level: `−κ (L − L_ref)` dB; 0 for a textile

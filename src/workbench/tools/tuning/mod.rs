@@ -149,14 +149,6 @@ fn show_curve(ui: &mut Ui, rect: Rect, (scene, commands): (&SceneView, &mut Comm
     });
 }
 
-/// A band's own gain, without the master's, dB.
-fn own_gain_db(tuning: &tactile::Tuning, band: Band) -> f64 {
-    match band {
-        Band::Low => tuning.gain_40_db,
-        Band::High => tuning.gain_320_db,
-    }
-}
-
 /// A band's gain, with its mute and solo.
 fn show_band(
     ui: &mut Ui,
@@ -167,9 +159,9 @@ fn show_band(
 ) {
     let palette = Palette::in_ui(ui);
     let name = format!("{} Hz", quantity::fixed(band.carrier_hz(), 0));
-    let scale = Scale::gain(own_gain_db(&scene.default_tuning, band)).with_noticed(noticed);
+    let scale = Scale::gain(scene.default_tuning.own_band_gain_db(band)).with_noticed(noticed);
     let ink = palette.band(band);
-    let value = own_gain_db(&scene.tuning, band);
+    let value = scene.tuning.own_band_gain_db(band);
     let (new, response) = slider_row(ui, &name, ink, scale, value);
     commands.extend(new.map(|db| Edit::BandGain(band, db).into()));
     // Mute and solo stand between the name and the rail.
