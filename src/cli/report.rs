@@ -69,8 +69,13 @@ pub(super) fn run(args: &ReportArgs) -> Result<(), CliError> {
 fn list(studies: &[Study]) -> Result<(), CliError> {
     let width = studies.iter().map(|study| study.name.len()).max();
     let width = width.unwrap_or_default();
-    let line = |study: &Study| format!("{:width$}  {}\n", study.name, study.question);
-    output::print(&studies.iter().map(line).collect::<String>())
+    let line = |study: &Study| format!("  {:width$}  {}\n", study.name, study.question);
+    let chapters = studies.chunk_by(|a, b| a.chapter == b.chapter);
+    let told = chapters.map(|studies| {
+        let lines: String = studies.iter().map(line).collect();
+        format!("{}\n{lines}", studies[0].chapter)
+    });
+    output::print(&told.collect::<String>())
 }
 
 fn make(args: &ReportArgs, studies: &[Study], out: &Path) -> Result<(), CliError> {

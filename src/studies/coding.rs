@@ -31,6 +31,7 @@ const HARMONIC: f64 = 2.0 / std::f64::consts::PI;
 /// Error of every coding against exact arithmetic.
 pub(crate) const STUDY: Study = Study {
     name: "coding",
+    chapter: "waveforms",
     question: "What do whole numbers, few digits and many samples leave of an amplitude, a sine \
                and a carrier's phase?",
     reference: "The same numbers before they are coded, in exact arithmetic: single precision \

@@ -16,6 +16,7 @@ const FRAME: [usize; 2] = [512, 128];
 /// Griffin–Lim: from which phases and in how many rounds.
 pub(crate) const SPECTRA: Study = Study {
     name: "griffin-lim",
+    chapter: "friction",
     question: "From which phases, and in how many rounds, is friction found from its spectra?",
     reference: "The magnitudes that went in.",
     error: ("spectral error", "share of all magnitudes"),
@@ -26,6 +27,7 @@ pub(crate) const SPECTRA: Study = Study {
 /// Worse pictures, and extreme ones.
 pub(crate) const PICTURES: Study = Study {
     name: "friction-pictures",
+    chapter: "friction",
     question: "What does a worse picture cost the friction that is read from it?",
     reference: "Procedural cloths that were held back, and the friction that was felt on them.",
     error: ("distance of spectra, mean", "dB"),

@@ -1,10 +1,12 @@
-//! `index.md`: what was asked, what was found, on which machine, and how to repeat it.
+//! `index.md`: every verdict, on which machine, and how to repeat it; `CHAPTER.md`: what was asked
+//! and found.
+
+use std::time::Duration;
 
 use super::listing::{cell, table};
 use super::machine::Machine;
 use super::readable::{number, time};
 use super::runner::{Options, Outcome, Report};
-use super::study::chapter_of;
 use super::{Effort, Findings, ReportError, Row, Study, chart, growth, write};
 
 /// Where and how a report was made.
@@ -18,7 +20,10 @@ struct About<'a> {
     date: &'a str,
 }
 
-/// Writes the index of a report that was made here, as was asked for, then.
+/// A study that is done, what it found, and how long that took.
+type Told<'a> = (&'a Study, &'a Findings, &'a Duration);
+
+/// Writes the index of a report that was made here, as was asked for, then, and its chapters.
 pub(super) fn write(
     studies: &[Study],
     report: &Report,
@@ -29,29 +34,27 @@ pub(super) fn write(
         options,
         date,
     };
-    write::text(
-        "index.md",
-        &about.options.out,
-        &text(studies, report, about),
-    )
+    let outcomes = studies.iter().zip(&report.outcomes);
+    let done: Vec<Told<'_>> = outcomes
+        .filter_map(|(study, (_, outcome))| match outcome {
+            Outcome::Done { findings, took } => Some((study, findings, took)),
+            _ => None,
+        })
+        .collect();
+    for chapter in done.chunk_by(|a, b| a.0.chapter == b.0.chapter) {
+        let name = format!("{}.md", chapter[0].0.chapter);
+        write::text(&name, &options.out, &chapter_text(chapter, about))?;
+    }
+    write::text("index.md", &options.out, &text(&done, report, about))
 }
 
-/// The whole text.
-fn text(studies: &[Study], report: &Report, about: &About<'_>) -> String {
+/// The first page.
+fn text(done: &[Told<'_>], report: &Report, about: &About<'_>) -> String {
     let mut out = vec!["# Error against run time, stability, and what is left out\n".to_owned()];
     if report.is_cancelled {
         out.push("**Stopped before it was done.** What was finished is below.\n".to_owned());
     }
-    let done = || {
-        studies
-            .iter()
-            .zip(&report.outcomes)
-            .filter_map(|(study, (_, outcome))| match outcome {
-                Outcome::Done { findings, took } => Some((study, findings, took)),
-                _ => None,
-            })
-    };
-    for (study, findings, _) in done() {
+    for (study, findings, _) in done {
         broken(study, findings, &mut out);
     }
     for (name, why) in report.failures() {
@@ -62,30 +65,29 @@ fn text(studies: &[Study], report: &Report, about: &About<'_>) -> String {
                      say less";
         out.push(format!("{words}: {}\n", cell(why)));
     }
-    verdicts(done(), &mut out);
+    verdicts(done, &mut out);
     if let Some(since) = &report.since {
         out.push(since.text());
     }
     about_text(about, &mut out);
-    let mut chapter = None;
-    for (study, findings, took) in done() {
-        let own = chapter_of(study.name);
-        if let Some(begun) = own.filter(|_| own != chapter) {
-            out.push(format!("## {}\n", chart::titled(begun)));
-        }
-        chapter = own;
+    not_run(report, &mut out);
+    out.join("\n")
+}
+
+/// A chapter: a page by itself.
+fn chapter_text(done: &[Told<'_>], about: &About<'_>) -> String {
+    let mut out = vec![format!("# {}\n", chart::titled(done[0].0.chapter))];
+    for (study, findings, took) in done {
         study_text(study, findings, &time(took.as_secs_f64()), &mut out);
     }
-    not_run(report, &mut out);
+    out.push("## Where and how\n".to_owned());
+    about_text(about, &mut out);
     out.join("\n")
 }
 
 /// Every study in a line: what it asks, how many promises it keeps, what keeps its promise at least
 /// cost.
-fn verdicts<'a>(
-    done: impl Iterator<Item = (&'a Study, &'a Findings, &'a std::time::Duration)>,
-    out: &mut Vec<String>,
-) {
+fn verdicts(done: &[Told<'_>], out: &mut Vec<String>) {
     out.push(
         "| chapter | study | it asks | promises kept | worst error where one is promised | took |"
             .to_owned(),
@@ -110,8 +112,8 @@ fn verdicts<'a>(
         });
         let anchor = chart::titled(study.name).to_lowercase().replace(' ', "-");
         out.push(format!(
-            "| {} | [{}](#{anchor}) | {} | {kept} | {} | {} |",
-            chapter_of(study.name).unwrap_or_default(),
+            "| {0} | [{1}]({0}.md#{anchor}) | {2} | {kept} | {3} | {4} |",
+            study.chapter,
             study.name,
             cell(study.question),
             worst.trim_end(),
@@ -195,12 +197,7 @@ fn about_text(about: &About<'_>, out: &mut Vec<String>) {
 
 fn study_text(study: &Study, findings: &Findings, took: &str, out: &mut Vec<String>) {
     let name = study.name;
-    let level = if chapter_of(name).is_some() {
-        "###"
-    } else {
-        "##"
-    };
-    out.push(format!("{level} {}\n", chart::titled(name)));
+    out.push(format!("## {}\n", chart::titled(name)));
     out.push(format!("{}\n", study.question));
     out.push(format!(
         "Reference: {} Took {took}. Numbers: [{name}.csv]({name}.csv).\n",

@@ -5,7 +5,7 @@
 //! both, and writes tables and plots.
 //!
 //! ```text
-//! Study::run(Bench) ─▶ Findings (rows, plots, notes) ─▶ runner ─▶ CSV, SVG, PNG, index.md
+//! Study::run(Bench) ─▶ Findings (rows, plots, notes) ─▶ runner ─▶ CSV, SVG, PNG, *.md
 //!                                                  further processes ─┘     └─▶ report.json
 //! ```
 //!
@@ -76,6 +76,7 @@ pub fn studies() -> Vec<Study> {
         areal::STUDY,
         drive_updates::STUDY,
         coding::STUDY,
+        bimorph::STUDY,
         velocity::STUDY,
         models::BROWNIAN,
         models::FOURIER,
@@ -89,7 +90,6 @@ pub fn studies() -> Vec<Study> {
         picture::WEAVES,
         picture::SCALE,
         picture::ROUTE,
-        bimorph::STUDY,
         stylus::STUDY,
         stylus::LIMITS,
         drape::STUDY,

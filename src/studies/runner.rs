@@ -11,7 +11,6 @@ use super::machine::{self, Machine};
 use super::record::{self, Record};
 use super::rounds;
 use super::since::Since;
-use super::study::chapter_of;
 use super::{Bench, Effort, Findings, ReportError, Row, Study, index, write};
 use selvedge_foundation::progress::{CancelFlag, Progress};
 
@@ -138,9 +137,9 @@ impl Report {
 /// A name that is not known.
 pub fn choose(studies: Vec<Study>, only: &[String]) -> Result<Vec<Study>, ReportError> {
     let mut names: Vec<&str> = studies.iter().map(|study| study.name).collect();
-    for chapter in studies.iter().filter_map(|study| chapter_of(study.name)) {
-        if !names.contains(&chapter) {
-            names.push(chapter);
+    for study in &studies {
+        if !names.contains(&study.chapter) {
+            names.push(study.chapter);
         }
     }
     if let Some(name) = only.iter().find(|name| !names.contains(&name.as_str())) {
@@ -149,15 +148,11 @@ pub fn choose(studies: Vec<Study>, only: &[String]) -> Result<Vec<Study>, Report
             known: names.join(", "),
         });
     }
-    let is_wanted = |name: &str| {
-        let is_named =
-            |wanted: &String| wanted == name || chapter_of(name) == Some(wanted.as_str());
+    let is_wanted = |study: &Study| {
+        let is_named = |wanted: &String| wanted == study.name || wanted == study.chapter;
         only.is_empty() || only.iter().any(is_named)
     };
-    Ok(studies
-        .into_iter()
-        .filter(|study| is_wanted(study.name))
-        .collect())
+    Ok(studies.into_iter().filter(is_wanted).collect())
 }
 
 /// Share of the work that the first process does, if there are others.

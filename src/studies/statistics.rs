@@ -25,6 +25,7 @@ const NEWTON: f64 = 1e-10;
 /// Error against truth from outside, with the condition of each question.
 pub(crate) const STUDY: Study = Study {
     name: "statistics",
+    chapter: "evidence",
     question: "How many digits have tails, quantiles, fits and posteriors, far out and where data \
                decide next to nothing, and at what cost?",
     reference: "Values of mpmath with 25 digits or more and of NumPy's quadrature, stored with \

@@ -9,6 +9,8 @@ use selvedge_chart::Chart;
 pub struct Study {
     /// Its name: lower case, words joined by hyphens; files are called by it.
     pub name: &'static str,
+    /// What it belongs to, which a report tells on one page: `CHAPTER.md`.
+    pub chapter: &'static str,
     /// What it asks, one sentence.
     pub question: &'static str,
     /// What errors are measured against, one sentence.
@@ -19,47 +21,6 @@ pub struct Study {
     pub cost_of: &'static str,
     /// Answers the question, unless it was cancelled or something that it needs failed.
     pub run: fn(&mut Bench<'_>) -> Result<Findings, ReportError>,
-}
-
-/// Studies of one subject, which a report tells in one chapter; every other is its own.
-pub(crate) const CHAPTERS: [(&str, &[&str]); 9] = [
-    ("amplitudes", &["rendering", "total-cost", "adversarial"]),
-    ("spectra", &["spectral-model", "areal"]),
-    ("waveforms", &["drive-updates", "coding"]),
-    (
-        "surfaces",
-        &[
-            "brownian",
-            "fourier-coefficients",
-            "restoration",
-            "resampling",
-            "virtual-probe",
-            "readers",
-        ],
-    ),
-    (
-        "pictures",
-        &[
-            "shading",
-            "autocorrelation",
-            "lattice",
-            "weaves",
-            "picture-scale",
-            "picture-route",
-        ],
-    ),
-    ("contact", &["stylus", "stylus-limits"]),
-    ("cloth", &["drape", "drape-stability"]),
-    ("friction", &["griffin-lim", "friction-pictures"]),
-    ("evidence", &["statistics", "mds", "staircases"]),
-];
-
-/// The chapter of a study; `None` of one that is its own.
-pub(crate) fn chapter_of(study: &str) -> Option<&'static str> {
-    let chapter = CHAPTERS
-        .iter()
-        .find(|(_, studies)| studies.contains(&study));
-    chapter.map(|(chapter, _)| *chapter)
 }
 
 /// What a study found.

@@ -23,6 +23,7 @@ const N_STARTS: usize = 4;
 /// Error against bound, as large as a search can make it.
 pub(crate) const STUDY: Study = Study {
     name: "adversarial",
+    chapter: "amplitudes",
     question: "Does any surface, filter, place or motion break the bound that a method of \
                rendering states before its first tick?",
     reference: "The method reference on the same poses; for the reference itself the formula, \

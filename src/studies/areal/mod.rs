@@ -32,6 +32,7 @@ const PROMISED_DB: f64 = 0.05;
 /// Economical against areal, on model cloths and a random relief.
 pub(crate) const STUDY: Study = Study {
     name: "areal",
+    chapter: "spectra",
     question: "How far is one profile a direction, repeated across, from spectra at every point, \
                and what do the points cost?",
     reference: "The areal surface of the same relief, rendered by reference: contactor by \

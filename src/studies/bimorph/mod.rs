@@ -26,6 +26,7 @@ const TIMED_STEPS: usize = 1000;
 /// Error and cost of four ways to step a contactor, by step, stiffness and quality.
 pub(crate) const STUDY: Study = Study {
     name: "bimorph",
+    chapter: "waveforms",
     question: "How should a contactor be stepped, with any skin on it and however sharp its \
                resonance?",
     reference: "The closed form of |H| for a sine that a DAC holds, its images included.",

@@ -12,6 +12,7 @@ use selvedge_foundation::progress::thread_cpu_seconds;
 /// Error against run time.
 pub(crate) const STUDY: Study = Study {
     name: "drape",
+    chapter: "cloth",
     question: "How should a hanging cloth be stepped, and what does it cost?",
     reference: "Explicit steps of a twentieth of their limit; at rest the finest grid.",
     error: ("error of places, rms", "mm"),

@@ -10,6 +10,7 @@ use selvedge_drape::{Drape, Hand, Integrator};
 /// The map of stability.
 pub(crate) const STABILITY: Study = Study {
     name: "drape-stability",
+    chapter: "cloth",
     question: "Which stiffness, weight and step does each way of stepping a cloth hold?",
     reference: "The energy at the start and the hands' work: no more is to be there.",
     error: ("energy from nowhere", "of what was there or put in"),

@@ -70,6 +70,7 @@ impl Switching {
 /// Out-of-band energy and level error of three ways to change amplitudes, and their cost.
 pub(crate) const STUDY: Study = Study {
     name: "drive-updates",
+    chapter: "waveforms",
     question: "When should new amplitudes begin to sound, so that nothing is felt but their \
                levels?",
     reference: "Energy within half an octave of 40 and 320 Hz; levels against those asked for at \

@@ -12,6 +12,7 @@ const N_OBJECTS: usize = 16;
 /// Stress above the best known against run time.
 pub(crate) const STUDY: Study = Study {
     name: "mds",
+    chapter: "evidence",
     question: "How far above the best known stress does each way to make a map end, and at what \
                cost?",
     reference: "The lowest loss that any way or the longest search found for the same data, ties \

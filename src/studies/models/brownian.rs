@@ -15,6 +15,7 @@ const STEP_MM: f64 = 0.1;
 /// Error of the Hurst exponent by generator, exponent and size, and what a surface costs.
 pub(crate) const STUDY: Study = Study {
     name: "brownian",
+    chapter: "surfaces",
     question: "Does the Hurst exponent that was asked for come back from a Brownian surface?",
     reference: "The exponent asked for; rises by the closed form σ²|d|^2H.",
     error: ("error of H", ""),

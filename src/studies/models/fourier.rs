@@ -19,6 +19,7 @@ const N_DRAWS: u64 = 100;
 /// Error by number of Fourier coefficients, and what a profile of them costs.
 pub(crate) const STUDY: Study = Study {
     name: "fourier-coefficients",
+    chapter: "surfaces",
     question: "How many Fourier coefficients does a profile take, and is a drawn one as rough?",
     reference: "The textile's own profile, limited to 20 cycles/mm.",
     error: ("rms error", "%"),

@@ -14,6 +14,7 @@ const LENGTH_MM: f64 = 10.0;
 /// Error of the virtual probe by step and wave, and what a stroke costs.
 pub(crate) const STUDY: Study = Study {
     name: "virtual-probe",
+    chapter: "surfaces",
     question: "How finely must a surface be sampled for the virtual tester's wire?",
     reference: "The curve parallel to a wave, which the middle of a round wire follows over it.",
     error: ("rms error", "%"),

@@ -17,6 +17,7 @@ type Way = fn(&[f64]) -> Vec<f64>;
 /// Error of resampling by the step of the original, and what it costs.
 pub(crate) const STUDY: Study = Study {
     name: "resampling",
+    chapter: "surfaces",
     question: "What does it cost to resample a profile to 230 samples a millimetre, by its own \
                step?",
     reference: "A sum of 40 waves by its formula, at every fine sample.",

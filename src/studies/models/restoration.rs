@@ -18,6 +18,7 @@ const AMPLITUDES_UM: [f64; 8] = [10.0, 4.0, 3.0, 2.0, 1.5, 1.0, 0.7, 0.5];
 /// Errors of period, roughness and waves by harmonics and noise, and what reduction costs.
 pub(crate) const STUDY: Study = Study {
     name: "restoration",
+    chapter: "surfaces",
     question: "What does noise do to the restoration of a profile by its period and harmonics?",
     reference: "Eight harmonics of 0.617 mm with known amplitudes and phases, before noise was \
                 added.",

@@ -17,6 +17,7 @@ const ALL_UP_TO: usize = 64;
 /// Error and cost of the autocorrelation by the picture's side.
 pub(crate) const STUDY: Study = Study {
     name: "autocorrelation",
+    chapter: "pictures",
     question: "What do transforms save on the autocorrelation of a picture, and do they change \
                it?",
     reference: "The correlation coefficient of both overlaps, summed pixel by pixel.",

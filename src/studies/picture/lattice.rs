@@ -14,6 +14,7 @@ use selvedge_textile::picture::{Analysis, Basis, SignificantMaxima};
 /// Lattices of pictures that are spoilt in seven ways, by five estimates.
 pub(crate) const STUDY: Study = Study {
     name: "lattice",
+    chapter: "pictures",
     question: "Which estimate finds the lattice of a picture, and what may be wrong with the \
                picture?",
     reference: "The two vectors that the picture was drawn by, whichever pair spans the same \

@@ -15,6 +15,7 @@ const N_PERIODS: f64 = 22.0;
 /// Lattices of pictures that are reduced until nothing is left of the threads.
 pub(crate) const STUDY: Study = Study {
     name: "picture-scale",
+    chapter: "pictures",
     question: "How far may the picture of a cloth be reduced before its lattice is lost?",
     reference: "The two vectors that the picture was drawn by, whichever pair spans the same \
                 lattice.",

@@ -17,6 +17,7 @@ use selvedge_textile::picture::{Lattice, Place};
 /// Repeats of rendered weaves, and of pictures that repeat nowhere.
 pub(crate) const STUDY: Study = Study {
     name: "weaves",
+    chapter: "pictures",
     question: "Is the repeat of a weave found, or only its threads, and is anything found where \
                nothing repeats?",
     reference: "The repeat that the cloth was drawn by; none of a picture without one.",

@@ -79,6 +79,7 @@ impl Written {
 /// Reading time and error of Sq over formats and sizes.
 pub(crate) const STUDY: Study = Study {
     name: "readers",
+    chapter: "surfaces",
     question: "What does reading measured heights cost, and how exactly does their roughness \
                come back?",
     reference: "Sq of the map that was written.",

@@ -37,6 +37,7 @@ const BUDGETS_DB: [f64; 4] = [0.5, PROMISED_DB, 0.01, 0.002];
 /// Reference, banded and tables on four kinds of textile.
 pub(crate) const STUDY: Study = Study {
     name: "rendering",
+    chapter: "amplitudes",
     question: "How far is each method of rendering from the reference, and what does a tick of \
                24 contactors cost?",
     reference: "The method reference: f64, every bin below 1 kHz, on the very same poses; for the \

@@ -40,6 +40,7 @@ const LENGTHS: [(&str, u32); 4] = [
 /// What `auto` costs in all, beside the cheapest.
 pub(crate) const STUDY: Study = Study {
     name: "total-cost",
+    chapter: "amplitudes",
     question: "What do preparing and all ticks of an exploration cost together, is auto about as \
                cheap as the cheapest method, and what does a turning display cost?",
     reference: "The cheapest method that keeps the same error budget.",

@@ -27,6 +27,7 @@ const METHODS: [Method; 2] = [Method::Banded, Method::Table];
 /// What every rule is asked for, needs and does.
 pub(crate) const STUDY: Study = Study {
     name: "savings",
+    chapter: "savings",
     question: "What is a tick asked for, what of it does the scene need, what is done, and by \
                which rule is the rest left out?",
     reference: "What is needed, counted contactor by contactor from places and velocities alone; \

@@ -31,6 +31,7 @@ const PROMISED_CORRELATION: f64 = 0.95;
 /// Error of heights by method, iterations, light and noise, and what finding them costs.
 pub(crate) const STUDY: Study = Study {
     name: "shading",
+    chapter: "pictures",
     question: "How much of a known relief comes back from its picture?",
     reference: "The relief that the picture was drawn of, four points to a pixel's side.",
     error: ("height error", "%"),

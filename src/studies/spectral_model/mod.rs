@@ -20,6 +20,7 @@ const PRODUCT: [f64; 2] = [WINDOW_LENGTH_MM, BIN_SPACING_PER_MM];
 /// Level error of window lengths, bin spacings and the choice of points, and what they cost.
 pub(crate) const STUDY: Study = Study {
     name: "spectral-model",
+    chapter: "spectra",
     question: "What do the window of 4.35 mm, bins of 0.23 cycles/mm and the nearest point cost \
                in level?",
     reference: "Sums of waves by the filters' formula, whole profiles, the mean power over a \

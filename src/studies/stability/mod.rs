@@ -39,6 +39,7 @@ const PATIENCE: Duration = Duration::from_secs(30);
 /// The study.
 pub(crate) const STUDY: Study = Study {
     name: "stability",
+    chapter: "stability",
     question: "What comes back when something extreme goes in?",
     reference: "what is promised for each case.",
     error: ("cases that came out otherwise", "cases"),

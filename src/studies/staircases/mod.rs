@@ -19,6 +19,7 @@ const CHECKPOINTS: [u32; 5] = [20, 40, 80, 160, 320];
 /// Threshold error against trials.
 pub(crate) const STUDY: Study = Study {
     name: "staircases",
+    chapter: "evidence",
     question: "How near does each way to find a threshold come, after how many trials, if \
                observers lapse or are less steep than assumed?",
     reference: "The simulated observer's own function, at the share right that the way looks \

@@ -20,6 +20,7 @@ use std::f64::consts::TAU;
 /// Limits of the sampled wall, buzzing, and ticks.
 pub(crate) const STUDY: Study = Study {
     name: "stylus-limits",
+    chapter: "contact",
     question: "How stiff may a sampled wall be, and what does sampling make of a texture?",
     reference: "Largest stiffnesses by other programs' eigenvalues; the same texture's force at \
                 all times.",

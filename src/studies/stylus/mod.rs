@@ -33,6 +33,7 @@ const TIMED_STEPS: usize = 200;
 /// Error and cost of six steppers on three surfaces.
 pub(crate) const STUDY: Study = Study {
     name: "stylus",
+    chapter: "contact",
     question: "How should a stylus on a stiff surface be stepped?",
     reference: "The exact stepper in steps of 1 µs, which on a plane is the closed form.",
     error: ("error of the height", "of 2 mm"),

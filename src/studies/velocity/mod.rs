@@ -37,6 +37,7 @@ struct Outcome {
 /// Velocity error against delay and cost of the five estimators.
 pub(crate) const STUDY: Study = Study {
     name: "velocity",
+    chapter: "velocity",
     question: "How far from the finger's velocity is each estimator, how late, and at what cost?",
     reference: "The velocity of strokes known in closed form, at the tick that asks.",
     error: ("rms velocity error", "mm/s"),

@@ -28,6 +28,7 @@ pub fn studies() -> Vec<Study> {
 /// What a frame costs.
 const STUDY: Study = Study {
     name: "window",
+    chapter: "window",
     question: "What does a frame of the window cost, what does each view add, and is anything \
                done while nothing changes?",
     reference: "A window in which nothing moves: it asks for no frame and uploads no picture.",

@@ -17,6 +17,7 @@ use ways::Subject;
 /// What is felt of model cloths by four routes.
 pub(crate) const STUDY: Study = Study {
     name: "picture-route",
+    chapter: "pictures",
     question: "Does a picture tell how a cloth feels as well as the surface tester does?",
     reference: "The relief of a model cloth under a wire 1 mm wide, at five places, without \
                 friction or noise.",
