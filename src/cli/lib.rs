@@ -161,7 +161,8 @@ fn command() -> clap::Command {
 pub fn main() -> ExitCode {
     let args: Vec<OsString> = std::env::args_os().collect();
     let mut command = command();
-    if let Some(line) = usage::unknown_command(args.get(1..).unwrap_or_default(), &command) {
+    let words = args.get(1..).unwrap_or_default();
+    if let Some(line) = usage::unknown_command(words, &command) {
         terminal::line(&line);
         return ExitCode::from(2);
     }
@@ -169,7 +170,7 @@ pub fn main() -> ExitCode {
     let parsed = parsed.and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches)));
     let (cli, matches) = match parsed {
         Ok(parsed) => parsed,
-        Err(error) => return usage::answer(&error),
+        Err(error) => return usage::answer(&error, words, &command),
     };
     let ended = paths::check(&command, &matches).and_then(|()| run(cli));
     terminal::end();

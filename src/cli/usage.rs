@@ -25,8 +25,9 @@ pub(super) fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
 }
 
 /// Answers help and version on standard output, everything else with one line and exit code 2.
-pub(super) fn answer(error: &clap::Error) -> ExitCode {
+pub(super) fn answer(error: &clap::Error, args: &[OsString], command: &Command) -> ExitCode {
     let text = error.render().to_string();
+    let help = help_of(args, command);
     match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
             // There is nothing left to do if nobody reads it.
@@ -34,11 +35,11 @@ pub(super) fn answer(error: &clap::Error) -> ExitCode {
             ExitCode::SUCCESS
         }
         ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand | ErrorKind::MissingSubcommand => {
-            terminal::notice(&format!("a command is missing; see {}", help_of(&text)));
+            terminal::notice(&format!("a command is missing; see {help}"));
             ExitCode::from(2)
         }
         _ => {
-            terminal::notice(&format!("{}; see {}", complaint(&text), help_of(&text)));
+            terminal::notice(&format!("{}; see {help}", complaint(&text)));
             ExitCode::from(2)
         }
     }
@@ -109,18 +110,17 @@ fn complaint(text: &str) -> String {
     words.replace(" tip: ", "; ")
 }
 
-/// The command whose help explains the usage that the text shows: `selvedge render --help`.
-fn help_of(text: &str) -> String {
-    let usage = text
-        .lines()
-        .find_map(|line| line.trim_start().strip_prefix("Usage: "));
-    let is_word = |word: &&str| word.bytes().all(|b| b.is_ascii_lowercase());
-    let words: Vec<&str> = usage
-        .unwrap_or("selvedge")
-        .split_whitespace()
-        .take_while(is_word)
-        .collect();
-    format!("\"{} --help\"", words.join(" "))
+/// The help of the command that the words begin with: `"selvedge textile show --help"`.
+fn help_of(words: &[OsString], command: &Command) -> String {
+    let (mut help, mut command) = ("\"selvedge".to_owned(), command);
+    for word in words {
+        let Some(sub) = command.find_subcommand(word) else {
+            break;
+        };
+        help = format!("{help} {}", sub.get_name());
+        command = sub;
+    }
+    help + " --help\""
 }
 
 #[cfg(test)]
@@ -137,8 +137,15 @@ mod tests {
             complaint(TEXT),
             "the following required arguments were not provided: --path <PATH>"
         );
-        assert_eq!(help_of(TEXT), "\"selvedge render --help\"");
-        assert_eq!(help_of("Usage: selvedge [SCENE]"), "\"selvedge --help\"");
+        let command = crate::command();
+        for (words, expected) in [
+            ("probe --delay nan", "\"selvedge probe --help\""),
+            ("textile show", "\"selvedge textile show --help\""),
+            ("silk.toml --x", "\"selvedge --help\""),
+        ] {
+            let words: Vec<OsString> = words.split(' ').map(OsString::from).collect();
+            assert_eq!(help_of(&words, &command), expected);
+        }
     }
 
     #[test]

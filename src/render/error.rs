@@ -89,15 +89,16 @@ impl RenderError {
         if (min..=max).contains(&value) {
             return Ok(());
         }
-        let what = format!("the {name} is {value} {unit}");
-        let max = if max < 1e5 {
-            max.to_string()
-        } else {
-            format!("{max:e}")
+        let short = |number: f64| {
+            if number.abs() >= 1e5 && number.is_finite() {
+                format!("{number:e}")
+            } else {
+                number.to_string()
+            }
         };
         Err(Self::stylus(
-            what,
-            format!("give one from {min} to {max} {unit}"),
+            format!("the {name} is {} {unit}", short(value)),
+            format!("give one from {} to {} {unit}", short(min), short(max)),
         ))
     }
 }

@@ -50,20 +50,31 @@ impl Friction {
 
     /// Refuses what is no friction.
     pub(super) fn check(&self) -> Result<(), RenderError> {
-        let is_mu = |mu: f64| (0.0..=10.0).contains(&mu);
-        let is_number = |x: f64, max: f64| x > 0.0 && x <= max;
-        let is_good = is_mu(self.sliding)
-            && is_mu(self.at_rest)
-            && is_number(self.stribeck_mm_per_s, 1e6)
-            && is_number(self.bristle_n_per_m, 1e9)
-            && (0.0..=1e6).contains(&self.viscous_n_s_per_m);
-        if is_good {
-            return Ok(());
+        for (name, value, unit, range) in [
+            ("friction", self.sliding, "N/N", [0.0, 10.0]),
+            ("friction at rest", self.at_rest, "N/N", [0.0, 10.0]),
+            (
+                "Stribeck speed",
+                self.stribeck_mm_per_s,
+                "mm/s",
+                [1e-6, 1e6],
+            ),
+            (
+                "bristles' stiffness",
+                self.bristle_n_per_m,
+                "N/m",
+                [1e-6, 1e9],
+            ),
+            (
+                "viscous friction",
+                self.viscous_n_s_per_m,
+                "N·s/m",
+                [0.0, 1e6],
+            ),
+        ] {
+            RenderError::within((name, value, unit), range)?;
         }
-        Err(RenderError::stylus(
-            "the friction is none that there is",
-            "give coefficients from 0 to 10, and positive stiffness and speed",
-        ))
+        Ok(())
     }
 
     /// Coefficients at rest and sliding at a place, u in mm.

@@ -52,6 +52,9 @@ impl StylusRun {
         place_mm: [f64; 2],
         start: StylusStart,
     ) -> Result<Self, RenderError> {
+        if let StylusStart::Above(above_mm) = start {
+            RenderError::within(("height of the start", above_mm, "mm"), [-1e3, 1e3])?;
+        }
         let case = setup.case();
         let setup = setup.checked()?;
         let case = WallCase {

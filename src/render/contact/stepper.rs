@@ -113,7 +113,7 @@ impl Column<'_> {
             }
             Stepper::RungeKutta4 => self.runge_kutta_4(from, h),
             Stepper::Trapezoid => self.solved(from, h, 0.5, |end| self.mean_n(from, end, h)),
-            Stepper::ImplicitEuler => self.solved(from, h, 1.0, |end| self.force_n(2, end)),
+            Stepper::ImplicitEuler => self.solved(from, h, 1.0, |end| self.end_n(end, h)),
             Stepper::Exact | Stepper::Auto => self.exact(from, h),
         }
     }
@@ -123,6 +123,22 @@ impl Column<'_> {
         let floors = self.floors[instant].iter();
         floors
             .map(|floor| self.spring.force_n(floor, at.z_m, at.v_m_per_s))
+            .sum()
+    }
+
+    /// The force at the end of a step, whose damper knows how far the surface rose over it: by the
+    /// rise of the last instant it would pay out more than was put in.
+    fn end_n(&self, end: Motion, h: f64) -> f64 {
+        let pairs = self.floors[0].iter().zip(self.floors[2]);
+        pairs
+            .map(|(before, after)| {
+                let rise_m_per_s = (after.height_m - before.height_m) / h;
+                let floor = Floor {
+                    rise_m_per_s,
+                    ..*after
+                };
+                self.spring.force_n(&floor, end.z_m, end.v_m_per_s)
+            })
             .sum()
     }
 

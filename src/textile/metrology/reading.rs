@@ -266,9 +266,6 @@ impl Reading {
 
     /// The even step of places along an axis, 0 along rows and 1 across them; where `may_resample`
     /// the heights are brought to even steps if they are not, with a warning.
-    ///
-    /// # Errors
-    /// Where the places are not even.
     pub(super) fn even_step(
         &mut self,
         (places, axis): (&[f64], usize),

@@ -2,7 +2,7 @@
 
 use super::*;
 use selvedge_foundation::geometry::Displacement;
-use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_textile::surface::HeightMap;
 use std::f64::consts::TAU;
 
@@ -66,6 +66,55 @@ fn going_over_a_ripple_there_and_back_gives_no_energy() {
             "{method:?}: {low_mm} to {high_mm}"
         );
     }
+}
+
+/// A relief of every wavelength from 0.05 to 10 mm, their amplitudes alike their lengths.
+fn rough() -> Relief {
+    let mut random = Random::new(3);
+    let waves: Vec<[f64; 2]> = (0..200)
+        .map(|_| [random.normal(), random.normal()])
+        .collect();
+    let height_um = |column: usize, _| {
+        let numbered = (1_u16..).map(f64::from).zip(&waves);
+        let waves = numbered.map(|(k, [a, b])| {
+            let (sin, cos) = (TAU * k * column as f64 / 2000.0).sin_cos();
+            (a * cos + b * sin) / k
+        });
+        15.0 * waves.sum::<f64>()
+    };
+    let map = HeightMap::new(Grid::from_fn(2000, 1, height_um), [0.005, 0.005]).unwrap();
+    Relief::of_map(&map.periodic())
+}
+
+#[test]
+fn what_is_marked_stable_gains_nothing_on_a_rough_relief_either() {
+    let relief = rough();
+    let mut n_stable = 0;
+    for method in Stepper::ALL {
+        for k in [10.0, 1e3, 1e5, 1e7] {
+            let law = ContactLaw {
+                stiffness_n_per_m: k,
+                damping_n_s_per_m: 0.2 * (k * 0.075_f64).sqrt(),
+                ..LAW
+            };
+            for rate_hz in [250.0, 1000.0, 4000.0, 40_000.0] {
+                let mut setup = setup(law, method, rate_hz);
+                setup.contact =
+                    Contact::new(&relief, Tip::stylus(0.0), law, Friction::none()).unwrap();
+                if setup.case().standing() != Standing::Stable {
+                    continue;
+                }
+                n_stable += 1;
+                let mut run = StylusRun::new(setup, [0.0; 2], StylusStart::Resting).unwrap();
+                for nth in 1..=2000 {
+                    run.step([50.0 * f64::from(nth) / rate_hz, 0.0]).unwrap();
+                    let gained = run.gained_j() / run.put_in_j();
+                    assert!(gained < 1e-10, "{method:?} {k} {rate_hz} {nth}: {gained}");
+                }
+            }
+        }
+    }
+    assert!(n_stable >= 48, "{n_stable}");
 }
 
 #[test]
