@@ -5,7 +5,6 @@
 
 use super::autocorrelation::Autocorrelation;
 use super::basis::{Basis, mix};
-use super::brightness::Brightness;
 use super::colour::PeriodicColour;
 use super::directions::{DirectionOptions, Directions};
 use super::lattice::{Lattice, NoLattice};
@@ -139,20 +138,6 @@ impl Found {
     pub fn laid<'a>(&'a self, luminance: &'a Grid<f64>) -> &'a Grid<f64> {
         let unwarped = self.unwarped.as_ref();
         unwarped.map_or(luminance, |unwarped| &unwarped.luminance)
-    }
-
-    /// What heights are found on: the whole picture as it is, if it is given, or the mean cell.
-    /// Without a scale the whole lattice still has a shape; only synthesized cloth needs one.
-    pub fn brightness(
-        &self,
-        whole: Option<&Grid<f64>>,
-        px_per_mm: Option<f64>,
-        n_threads: usize,
-    ) -> Brightness {
-        match whole {
-            Some(luminance) => Brightness::of_picture(self.laid(luminance), self.turn_rad()),
-            None => Brightness::of(&self.tile, px_per_mm.unwrap_or(1.0), n_threads),
-        }
     }
 
     /// Whether repeats drift over the picture, so that the mean of all cells is blurred.

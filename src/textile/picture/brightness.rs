@@ -8,7 +8,9 @@
 //! angles counter-clockwise. A light is always said as it falls on the *picture*, y up; these
 //! functions turn it to the axes of what was cut from it.
 
+use super::analysis::Found;
 use super::basis::{Basis, dot, length, whole};
+use super::relief::ReliefOf;
 use super::shading::{Light, LightEstimate, ShadingError, ShadingOptions, Shape};
 use super::source::between;
 use super::tile::Tile;
@@ -53,6 +55,22 @@ pub struct Brightness {
 }
 
 impl Brightness {
+    /// What heights are found on: the picture, whether it has a lattice or not, or the mean cell;
+    /// `None` where there is no lattice and so no cell. Only a cell that is no rectangle needs the
+    /// scale.
+    pub fn ground(
+        (relief_of, luminance): (ReliefOf, &Grid<f64>),
+        found: Option<&Found>,
+        px_per_mm: Option<f64>,
+        n_threads: usize,
+    ) -> Option<Self> {
+        Some(match (relief_of, found) {
+            (ReliefOf::Cell, found) => Self::of(&found?.tile, px_per_mm.unwrap_or(1.0), n_threads),
+            (_, Some(found)) => Self::of_picture(found.laid(luminance), found.turn_rad()),
+            (_, None) => Self::of_picture(luminance, 0.0),
+        })
+    }
+
     /// Cuts from a tile the rectangle that repeats, sampled at 1 px; where the lattice has none,
     /// synthesizes textile that holds a window of the finger or more at this scale.
     pub fn of(tile: &Tile, px_per_mm: f64, n_threads: usize) -> Self {

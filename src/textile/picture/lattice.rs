@@ -251,7 +251,7 @@ fn starts(
 
 /// How the two ways to the repeat of a weave agree: by heights of maxima, and by what is predicted.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Agreement {
+pub(super) enum Agreement {
     /// They do.
     Same,
     /// What is predicted is clearly better by another lattice.
@@ -265,7 +265,7 @@ enum Agreement {
 impl Agreement {
     /// The share of generated cloths that were right, of those with a lattice that were judged so
     /// (the study of lattices counts it).
-    fn confidence(self) -> f64 {
+    pub(super) fn confidence(self) -> f64 {
         match self {
             Self::Same => 0.98,
             Self::Predicted => 0.85,
@@ -304,7 +304,7 @@ fn agreed(by_heights: Basis, before: &HeldOut, repeat: Option<&Repeat>) -> (Basi
 
 /// Candidates, at least one: those that explain the maxima best first, of equals those from
 /// directions.
-fn candidates(
+pub(super) fn candidates(
     evidence: &Evidence<'_>,
     directions: &Directions,
 ) -> Result<Vec<(Candidate, Method)>, NoLattice> {
@@ -358,7 +358,7 @@ fn are_on_a_line(significant: &SignificantMaxima) -> bool {
 }
 
 /// Mean correlation at the points of a lattice, and the largest half-way between them.
-fn levels(evidence: &Evidence<'_>, basis: &Basis) -> Result<(f64, f64), NoLattice> {
+pub(super) fn levels(evidence: &Evidence<'_>, basis: &Basis) -> Result<(f64, f64), NoLattice> {
     let reach = evidence.near(basis);
     let level = evidence.level(basis, reach, [0.0; 2]);
     let half = |a: f64, b: f64| mix(basis.p1, 0.5 * a, basis.p2, 0.5 * b);

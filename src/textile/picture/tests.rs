@@ -465,3 +465,26 @@ fn a_printed_pattern_is_told_by_its_colour() {
         assert_eq!(found.colour.is_printed(), is_printed, "{:?}", found.colour);
     }
 }
+
+#[test]
+fn a_lattice_that_is_given_is_judged_by_what_it_explains() {
+    let cloth = Cloth::random(&mut Random::new(3));
+    let analysis = analysed(drawn(WIDTH, HEIGHT, |x, y| 0.5 + 0.1 * cloth.at([x, y])));
+    let measured = analysis.measured.unwrap();
+    let read = (&measured.rho, &measured.maxima, &measured.significant);
+    let found = analysis.found.unwrap().lattice;
+    let given = |basis: Basis| Lattice::given(read, basis).held_out.unwrap();
+    let right = given(found.basis());
+    let Basis { p1, p2 } = found.basis();
+    let wrong = given(Basis::new(
+        [1.13 * p1[0], p1[1] + 2.3],
+        [p2[0] - 1.7, 0.91 * p2[1]],
+    ));
+    assert!(right > 0.9 && wrong < 0.5 * right, "{right} and {wrong}");
+    let others = Lattice::others(read, &measured.directions, Some(&found));
+    assert!(others.len() <= 4, "{others:?}");
+    for other in others {
+        let off = other.basis().distance_to(&found.basis());
+        assert!(off > 0.05 * found.basis().shorter(), "{other:?}");
+    }
+}
