@@ -157,7 +157,7 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
         n_threads,
     };
     let work = |progress: &mut Progress<'_>| -> Result<_, CliError> {
-        let analysis = Analysis::of(&chosen, &options, progress)?;
+        let analysis = Analysis::of(chosen, &options, progress)?;
         let px_per_mm = args.px_per_mm(&analysis)?;
         let of = (&origin, args.scale().zip(px_per_mm));
         let is_felt = analysis.found.is_ok() || args.relief.is_asked();

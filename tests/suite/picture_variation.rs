@@ -98,7 +98,7 @@ const REAL: [&str; 3] = [
 ];
 
 /// Heights of a picture as a textile has them, and its levels, dB re 1 µm.
-fn felt(picture: &Picture, analysis: &Analysis, extent_mm: Option<f64>) -> (Grid<f64>, [f64; 2]) {
+fn felt(analysis: &Analysis, extent_mm: Option<f64>) -> (Grid<f64>, [f64; 2]) {
     let found = analysis.found.as_ref().ok();
     let ground = (ReliefOf::Picture, &analysis.luminance);
     let brightness = Brightness::ground(ground, found, Some(12.0), 2).unwrap();
@@ -115,7 +115,7 @@ fn felt(picture: &Picture, analysis: &Analysis, extent_mm: Option<f64>) -> (Grid
     };
     let relief = Progress::unheard(of).unwrap();
     let about = PictureTextile {
-        name: format!("{} px wide", picture.luminance.width()),
+        name: "cloth".to_owned(),
         px_per_mm: 12.0,
         scale: HeightScale::ReliefUm(200.0),
         extent_mm,
@@ -161,9 +161,9 @@ fn synthesized_cloth_is_felt_like_its_scan_and_repeats_less() {
             continue;
         };
         let picture = Picture::load(&bytes, &path).unwrap();
-        let analysis = Progress::unheard(|p| Analysis::of(&picture, &options, p)).unwrap();
-        let (scan, scan_db) = felt(&picture, &analysis, None);
-        let (made, made_db) = felt(&picture, &analysis, Some(40.0));
+        let analysis = Progress::unheard(|p| Analysis::of(picture, &options, p)).unwrap();
+        let (scan, scan_db) = felt(&analysis, None);
+        let (made, made_db) = felt(&analysis, Some(40.0));
         let size = [scan.width(), scan.height()];
         assert!(made.width() > size[0] && made.height() > size[1], "{name}");
         let found = analysis.found.as_ref();

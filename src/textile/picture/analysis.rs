@@ -8,7 +8,7 @@ use super::basis::{Basis, mix};
 use super::colour::PeriodicColour;
 use super::directions::{DirectionOptions, Directions};
 use super::lattice::{Lattice, NoLattice};
-use super::light::{EvenLight, even_light, mean_and_variance};
+use super::light::{EvenLight, even_light};
 use super::maxima::Maxima;
 use super::part::flattest;
 use super::significant::SignificantMaxima;
@@ -151,7 +151,7 @@ impl Found {
     /// The work was cancelled.
     pub fn of(
         luminance: &Grid<f64>,
-        picture: &Picture,
+        colour: Option<&Grid<[f32; 2]>>,
         lattice: Lattice,
         n_threads: usize,
         progress: &mut Progress<'_>,
@@ -159,7 +159,7 @@ impl Found {
         let all = |share: f64| progress.step(0.8 + 0.06 * share, "averaging the cells");
         let (whole, explained_variance) = Tile::refine(luminance, lattice.basis(), n_threads, all)?;
         let basis = whole.basis();
-        let colour = PeriodicColour::of(&whole, picture.colour.as_ref(), basis, n_threads);
+        let colour = PeriodicColour::of(&whole, colour, basis, n_threads);
         let is_flat = explained_variance >= LIES_FLAT * lattice.level;
         let from_maxima = [lattice.p1_px, lattice.p2_px];
         let drifts = explained_variance < DRIFT * lattice.level;
@@ -223,15 +223,13 @@ impl Analysis {
     /// # Errors
     /// The work was cancelled. A picture without a lattice is no error.
     pub fn of(
-        picture: &Picture,
+        Picture { luminance, colour }: Picture,
         options: &AnalysisOptions,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Cancelled> {
         progress.step(0.0, "evening out the light")?;
-        let (luminance, was_evened) = even_light(&picture.luminance, options.light);
-        let (width, height) = (luminance.width(), luminance.height());
-        let variance = mean_and_variance(&luminance).1;
-        if let Err(reason) = Lattice::worth_looking(width, height, variance) {
+        let (luminance, was_evened) = even_light(luminance, options.light);
+        if let Err(reason) = Lattice::worth_looking(&luminance) {
             return Ok(Self {
                 luminance,
                 was_evened,
@@ -246,7 +244,7 @@ impl Analysis {
         let found = match lattice {
             Ok(lattice) => Ok(Found::of(
                 &luminance,
-                picture,
+                colour.as_ref(),
                 lattice,
                 options.n_threads,
                 progress,

@@ -5,6 +5,7 @@
 //! maxima by least squares and reduced. Whether it is one at all, and whether it is the repeat of a
 //! weave or only its threads, is for what it predicts where it was not looked at.
 
+use selvedge_foundation::numerics::Grid;
 use serde::Serialize;
 
 use super::autocorrelation::Autocorrelation;
@@ -12,6 +13,7 @@ use super::basis::{Basis, Place, length, mix};
 use super::candidates::{Candidate, Method, judge, pairs, tolerance_px};
 use super::directions::Directions;
 use super::held_out::{self, HeldOut, Repeat};
+use super::light::mean_and_variance;
 use super::maxima::Maxima;
 use super::multiples::{Evidence, coarser, finer};
 use super::significant::SignificantMaxima;
@@ -155,7 +157,9 @@ impl Lattice {
     ///
     /// # Errors
     /// The picture is tiny or of one colour.
-    pub fn worth_looking(width: usize, height: usize, variance: f64) -> Result<(), NoLattice> {
+    pub fn worth_looking(luminance: &Grid<f64>) -> Result<(), NoLattice> {
+        let (width, height) = (luminance.width(), luminance.height());
+        let variance = mean_and_variance(luminance).1;
         if width.min(height) < MIN_SIDE {
             return Err(NoLattice::TooSmall(width, height));
         }

@@ -12,7 +12,7 @@ use super::multiples::Evidence;
 use super::significant::SignificantMaxima;
 
 /// Lattices that are offered beside the one that is found.
-const N_OFFERED: usize = 4;
+const N_OFFERED: usize = 3;
 
 impl Lattice {
     /// A lattice that somebody gives, with the evidence for it; its confidence is that of one with

@@ -22,7 +22,10 @@ pub(crate) fn synthesized(
     random: &mut Random,
 ) -> Grid<f64> {
     let n_samples = piece.values().len() as f64;
-    let cell = cell.filter(|cell| (1.0..n_samples / MIN_CELLS).contains(&cell.area()));
+    let side = piece.width().max(piece.height()) as f64;
+    let cell = cell.filter(|cell| {
+        (1.0..n_samples / MIN_CELLS).contains(&cell.area()) && cell.longer() <= side
+    });
     let tile = cell.map(|cell| Tile::fold(piece, cell, n_threads()));
     let level = piece.values().iter().sum::<f64>() / n_samples;
     let mean = |place: Place| tile.as_ref().map_or(level, |tile| tile.at(place));
@@ -199,7 +202,13 @@ mod tests {
     #[test]
     fn what_is_level_and_what_is_tiny_stay_finite() {
         for piece in [Grid::filled(40, 30, 2.0), Grid::filled(1, 1, 0.5)] {
-            for cell in [None, Some(CELL), Some(Basis::new([0.0; 2], [0.0; 2]))] {
+            let thin = Basis::new([1e9, 0.0], [0.0, 1e-8]);
+            for cell in [
+                None,
+                Some(CELL),
+                Some(Basis::new([0.0; 2], [0.0; 2])),
+                Some(thin),
+            ] {
                 let cloth = synthesized(&piece, cell, [64, 48], &mut Random::new(1));
                 let off = |z: &f64| (z - piece.values()[0]).abs();
                 assert!(cloth.values().iter().all(|z| off(z) < 1e-9), "{cell:?}");

@@ -151,7 +151,8 @@ fn a_lattice_that_is_dragged_shows_what_it_explains_and_is_taken_back() {
     let drawn = harness.state().picture_lattice().unwrap();
     assert_ne!(drawn, found, "the lattice follows");
     harness.get_by_label_contains("chosen, explains");
-    harness.get_by_label_contains("found ").click();
+    let found_again = harness.get_by_label_contains("Lattice found");
+    found_again.click_accesskit();
     harness.run_steps(6);
     assert_eq!(harness.state().picture_lattice().unwrap(), found);
     let chosen = harness.query_by_label_contains("chosen, explains");

@@ -191,16 +191,8 @@ fn correlated(inputs: &Draft, loaded: &Loaded) -> Result<Correlated, End> {
     } else {
         EvenLight::Off
     };
-    let (luminance, was_evened) = even_light(&picture.luminance, how);
-    let n = luminance.values().len().max(1) as f64;
-    let mean = luminance.values().iter().sum::<f64>() / n;
-    let variance = luminance
-        .values()
-        .iter()
-        .map(|x| (x - mean).powi(2))
-        .sum::<f64>()
-        / n;
-    let looked = Lattice::worth_looking(luminance.width(), luminance.height(), variance);
+    let (luminance, was_evened) = even_light(picture.luminance.clone(), how);
+    let looked = Lattice::worth_looking(&luminance);
     let read = looked.map_err(|reason| reason.to_string()).map(|()| {
         let rho = Autocorrelation::of(&luminance, n_threads());
         let maxima = Maxima::of(&rho);
@@ -249,8 +241,8 @@ fn cloth(
     let luminance = &correlated.luminance;
     let found = match lattice {
         Ok(lattice) => {
-            let picture = &correlated.picture;
-            let tiled = Tiled::of(luminance, picture, lattice, n_threads(), progress)?;
+            let colour = correlated.picture.colour.as_ref();
+            let tiled = Tiled::of(luminance, colour, lattice, n_threads(), progress)?;
             Ok(Box::new(tiled))
         }
         Err(reason) => Err(reason.to_string()),

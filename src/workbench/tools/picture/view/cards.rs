@@ -129,13 +129,11 @@ fn show_card(ui: &mut Ui, card: usize, picture: &mut Picture, found: Option<&Fou
             let lattice = found.and_then(Found::lattice).filter(|_| card == 3);
             if let (Some(lattice), Some(cloth)) = (lattice, cloth) {
                 let found = [lattice.p1_px, lattice.p2_px];
-                let vectors = dragged.get_or_insert(found);
-                let (now, is_let_go) = frame::show_vectors(ui, (rect, cloth.shown_px), *vectors);
-                *vectors = now;
-                if is_let_go {
+                let vectors = dragged.unwrap_or(found);
+                let moved = frame::show_vectors(ui, (rect, cloth.shown_px), vectors);
+                *dragged = moved.map(|(vectors, _)| vectors);
+                if moved.is_some_and(|(_, is_let_go)| is_let_go) {
                     draft.lattice = dragged.take();
-                } else if now == found {
-                    *dragged = None;
                 }
             }
         }),

@@ -54,6 +54,8 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) 
             picture.keep(commands);
         }
     });
+    let is_working = matches!(picture.standing(), Standing::Working(_));
+    let known = known.filter(|_| !is_working);
     for line in known.into_iter().flatten().flatten() {
         note(ui, &line, Tone::Quiet);
     }

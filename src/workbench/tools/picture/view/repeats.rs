@@ -99,28 +99,19 @@ fn offered(ui: &mut Ui, draft: &mut Draft, cloth: Option<&Cloth>) {
     };
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = STEP;
-        let tip = "Its size, and what its cells explain of the cells beside them";
-        for lattice in found {
-            if toggle(
-                ui,
-                &held_out_words("found", lattice),
-                draft.lattice.is_none(),
-                tip,
-            ) {
-                draft.lattice = None;
+        let mut offer = |name: &str, lattice: &Lattice, chosen: Option<[[f64; 2]; 2]>| {
+            let words = held_out_words(name, lattice);
+            let tip = format!("Lattice {words}: what its cells explain of those beside them");
+            if toggle(ui, &words, draft.lattice == chosen, &tip) {
+                draft.lattice = chosen;
             }
+        };
+        for lattice in found {
+            offer("found", lattice, None);
         }
         for lattice in others {
-            let vectors = Some([lattice.p1_px, lattice.p2_px]);
             let name = format!("{} px", quantity::fixed(lattice.basis().area().sqrt(), 1));
-            if toggle(
-                ui,
-                &held_out_words(&name, lattice),
-                draft.lattice == vectors,
-                tip,
-            ) {
-                draft.lattice = vectors;
-            }
+            offer(&name, lattice, Some([lattice.p1_px, lattice.p2_px]));
         }
     });
 }
