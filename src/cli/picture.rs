@@ -118,16 +118,13 @@ impl PictureArgs {
 
     /// Pixels to a millimetre. Threads that were counted must be found.
     fn px_per_mm(&self, analysis: &Analysis) -> Result<Option<f64>, CliError> {
-        let Some(scale) = self.scale() else {
-            return Ok(None);
-        };
-        let found = match (scale.stated_px_per_mm(), &analysis.found) {
-            (Some(px_per_mm), _) => Ok(px_per_mm),
-            (None, Ok(found)) => scale.px_per_mm(&found.lattice).map_err(|e| e.to_string()),
-            (None, Err(reason)) => Err(format!("no threads to count: {reason}; give --dpi")),
-        };
-        let wrong = |line| CliError::Input(format!("{}: {line}", self.image.display()));
-        found.map(Some).map_err(wrong)
+        let lattice = analysis.found.as_ref().map(|found| &found.lattice);
+        let px_per_mm = self.scale().map(|scale| scale.px_per_mm(lattice.ok()));
+        px_per_mm.transpose().map_err(|error| {
+            let none = lattice.err().map(|reason| format!("{reason}; "));
+            let path = self.image.display();
+            CliError::Input(format!("{path}: {}{error}", none.unwrap_or_default()))
+        })
     }
 
     fn about(&self, px_per_mm: Option<f64>) -> About {
@@ -160,12 +157,11 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
         n_threads,
     };
     let work = |progress: &mut Progress<'_>| -> Result<_, CliError> {
-        let analysis = Analysis::of(&chosen, &options, progress)?;
+        let analysis = Analysis::of(chosen, &options, progress)?;
         let px_per_mm = args.px_per_mm(&analysis)?;
         let of = (&origin, args.scale().zip(px_per_mm));
-        let felt = analysis.found.as_ref().ok();
-        let ground = &analysis.luminance;
-        let felt = felt.map(|found| args.relief.felt((ground, found), of, n_threads, progress));
+        let is_felt = analysis.found.is_ok() || args.relief.is_asked();
+        let felt = is_felt.then(|| args.relief.felt(&analysis, of, n_threads, progress));
         let felt = felt.transpose()?;
         Ok((analysis, px_per_mm, felt))
     };

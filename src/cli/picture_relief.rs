@@ -9,11 +9,11 @@ use super::textile_words::construction;
 use super::usage::one_of;
 use super::{CliError, terminal};
 use selvedge_foundation::files::sha256_hex;
-use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_foundation::quantity::{fixed, with_unit};
+use selvedge_textile::picture::brightness::Brightness;
 use selvedge_textile::picture::shading::{Light, Method, ShadingError, ShadingOptions};
-use selvedge_textile::picture::{Found, PictureScale, Relief};
+use selvedge_textile::picture::{Analysis, PictureScale, Relief, ReliefOf};
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{
     BuiltFile, Construction, Description, Ensemble, HeightScale, Lamp, PictureTextile,
@@ -29,10 +29,13 @@ pub(super) struct ReliefArgs {
     /// Within how many degrees that is right (5)
     #[arg(long, value_name = "DEG", value_parser = positive, requires = "light")]
     light_within: Option<f64>,
-    /// What heights are found on: the picture as it is, or the mean cell, which leaves out what
-    /// varies from yarn to yarn
+    /// What is felt: the picture as it is, over and over; cloth synthesized of it, without a
+    /// visible repetition; or the mean cell, which leaves out what varies from yarn to yarn
     #[arg(long, value_name = "WHAT", value_parser = one_of(GROUNDS), default_value = "picture")]
-    relief_of: Ground,
+    relief_of: ReliefOf,
+    /// How much cloth is synthesized, mm each way (60)
+    #[arg(long, value_name = "MM", value_parser = positive, requires = "textile")]
+    extent_mm: Option<f64>,
     /// How heights are found from brightness; if not said, by what the picture speaks for.
     /// tsai-shah and linear are the historical reference
     #[arg(long, value_name = "METHOD", value_parser = one_of(SHADINGS))]
@@ -67,14 +70,11 @@ const SHADINGS: [(&str, Method); 4] = [
     ("tsai-shah", Method::TsaiShah),
 ];
 
-/// What heights are found on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Ground {
-    Picture,
-    Cell,
-}
-
-const GROUNDS: [(&str, Ground); 2] = [("picture", Ground::Picture), ("cell", Ground::Cell)];
+const GROUNDS: [(&str, ReliefOf); 3] = [
+    ("picture", ReliefOf::Picture),
+    ("synthesized", ReliefOf::Synthesized),
+    ("cell", ReliefOf::Cell),
+];
 
 fn light_from(text: &str) -> Result<Light, String> {
     let wrong = || "give two numbers in degrees, such as 45,30".to_owned();
@@ -125,6 +125,9 @@ impl ReliefArgs {
             return refuse(&format!("--smd-um needs the picture's scale; {mend}"));
         }
         let options = self.options();
+        if self.extent_mm.is_some() && self.relief_of != ReliefOf::Synthesized {
+            return refuse("--extent-mm goes with --relief-of synthesized");
+        }
         let is_linear = options.method == Method::Linear && self.iterations.is_some();
         if is_linear {
             return refuse("--shading linear has no iterations; leave --iterations out");
@@ -133,7 +136,7 @@ impl ReliefArgs {
     }
 
     /// Whether heights were asked for in any way, so that none are an error.
-    fn is_asked(&self) -> bool {
+    pub(super) fn is_asked(&self) -> bool {
         let words = [
             self.light.is_some(),
             self.shading.is_some(),
@@ -173,6 +176,8 @@ impl ReliefArgs {
             px_scale: scaled.map(|(scale, _)| scale),
             scale,
             picture: Some([name.to_string_lossy().into_owned(), origin.sha256.clone()]),
+            extent_mm: (self.relief_of == ReliefOf::Synthesized)
+                .then(|| self.extent_mm.unwrap_or(PictureTextile::EXTENT_MM)),
             light_is_estimated: self.light.is_none(),
             representation: if self.areal {
                 Representation::Areal
@@ -183,22 +188,27 @@ impl ReliefArgs {
         }
     }
 
-    /// Finds the heights of a picture with a lattice; why there are none where nobody asked.
+    /// Finds the heights of a picture; why there are none where nobody asked.
     pub(super) fn felt(
         &self,
-        (luminance, found): (&Grid<f64>, &Found),
+        analysis: &Analysis,
         (origin, scaled): (&Origin<'_>, Option<(PictureScale, f64)>),
         n_threads: usize,
         progress: &mut Progress<'_>,
     ) -> Result<Result<Felt, String>, CliError> {
         let px_per_mm = scaled.map(|(_, px_per_mm)| px_per_mm);
-        let whole = (self.relief_of == Ground::Picture).then_some(luminance);
-        let brightness = found.brightness(whole, px_per_mm, n_threads);
+        let path = origin.path.display();
+        let found = analysis.found.as_ref().ok();
+        let ground = (self.relief_of, &analysis.luminance);
+        let Some(brightness) = Brightness::ground(ground, found, px_per_mm, n_threads) else {
+            let what = "there is no lattice and so no cell";
+            let mend = "leave --relief-of cell out";
+            return Err(CliError::Input(format!("{path}: {what}; {mend}")));
+        };
         let mut relief = match Relief::of(brightness, self.light, &self.options(), progress) {
             Ok(relief) => relief,
             Err(ShadingError::Cancelled(_)) => return Err(Cancelled.into()),
             Err(error) if self.is_asked() => {
-                let path = origin.path.display();
                 return Err(CliError::Input(format!("{path}: {error}")));
             }
             Err(error) => return Ok(Err(error.to_string())),
@@ -219,12 +229,13 @@ impl ReliefArgs {
         };
         let wants = self.textile.as_ref();
         let files = wants.map(|_| {
-            PictureTextile::files_of(&relief.shape, &relief.brightness, &found.tile, &about)
+            let tile = found.map(|found| &found.tile);
+            PictureTextile::files_of(&relief.shape, &relief.brightness, tile, &about)
         });
         Ok(Ok(Felt {
             relief,
             relief_um,
-            files: files.transpose()?,
+            files: files.transpose()?.map(|made| made.files),
             advice,
         }))
     }

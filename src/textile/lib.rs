@@ -41,7 +41,8 @@ pub use draft::{Draft, Fault};
 pub use error::{KesAsk, TextileError};
 pub use import::{
     Description, Ensemble, HeightImport, HeightPlace, HeightScale, ImportOptions, KesFigures,
-    KesImport, Lamp, Measurement, PictureTextile, ScaledRelief, read_measurement, rebuilt,
+    KesImport, Lamp, MadeOfPicture, Measurement, PictureTextile, ScaledRelief, read_measurement,
+    rebuilt,
 };
 pub use kes::{
     ColumnRole, DecimalSign, KesColumn, KesFile, KesFriction, KesKnown, KesLine, KesLook,

@@ -32,7 +32,7 @@ fn main() {
             };
             let seconds = timed(|| {
                 let analysis =
-                    Progress::unheard(|progress| Analysis::of(&picture, &options, progress));
+                    Progress::unheard(|progress| Analysis::of(picture.clone(), &options, progress));
                 let is_found = analysis.is_ok_and(|analysis| analysis.found.is_ok());
                 assert!(black_box(is_found), "the bench's weave has a lattice");
             });

@@ -473,7 +473,7 @@ fn real_pictures_have_the_lattices_that_eyes_see_in_them() {
         };
         let picture = Picture::load(&bytes, &path).unwrap();
         let analysis = selvedge_foundation::progress::Progress::unheard(|p| {
-            Analysis::of(&picture, &options, p)
+            Analysis::of(picture, &options, p)
         })
         .unwrap();
         match (analysis.found, expected) {

@@ -80,7 +80,7 @@ fn threads_that_were_counted_are_the_scale_and_the_manifest_keeps_it() {
     lab.write("plain.png", flat.to_png("plain.png".as_ref()).unwrap());
     let line = lab.refuse(&[&picture[..], &["20"]].concat());
     assert!(
-        line.contains("no threads to count: the picture is of one colour"),
+        line.contains("the picture is of one colour; no grid of threads"),
         "{line}"
     );
 }

@@ -185,6 +185,11 @@ impl LoadedScene {
         self.library = Arc::clone(library);
     }
 
+    /// Lets scenes place a textile that may lie in no library, under its id, while they do.
+    pub fn lend(&mut self, textile: Arc<Textile>) {
+        self.textiles.insert(0, textile);
+    }
+
     /// Loads textiles with these ids anew when a scene places them next: their files are others.
     pub fn forget(&mut self, ids: &[String]) {
         self.fresh.retain(|id| !ids.contains(id));

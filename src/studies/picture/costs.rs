@@ -45,7 +45,7 @@ fn steps(picture: &Grid<f64>, n: usize, bench: &Bench<'_>, rows: &mut Vec<Row>) 
         let row = Row::of(format!("step: {name}"), "", "usual");
         row.size(picture.values().len() as f64).cost(cost)
     };
-    let (light, _) = even_light(picture, EvenLight::Auto);
+    let (light, _) = even_light(picture.clone(), EvenLight::Auto);
     let rho = Autocorrelation::of(&light, 1);
     let maxima = Maxima::of(&rho);
     let significant = SignificantMaxima::of(&maxima, &rho);
@@ -57,7 +57,7 @@ fn steps(picture: &Grid<f64>, n: usize, bench: &Bench<'_>, rows: &mut Vec<Row>) 
         significant,
         directions,
     };
-    let of_light = bench.time_repeated(n, 1, || even_light(picture, EvenLight::Auto));
+    let of_light = bench.time_repeated(n, 1, || even_light(picture.clone(), EvenLight::Auto));
     rows.push(row("light", of_light));
     let of_rho = bench.time_repeated(n, 1, || Autocorrelation::of(&light, 1));
     rows.push(row("autocorrelation", of_rho));

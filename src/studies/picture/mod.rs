@@ -40,7 +40,7 @@ pub(crate) fn analysed(luminance: &Grid<f64>) -> Option<Analysis> {
         n_threads: 1,
     };
     let picture = Picture::grey(luminance.clone());
-    Progress::unheard(|progress| Analysis::of(&picture, &options, progress)).ok()
+    Progress::unheard(|progress| Analysis::of(picture, &options, progress)).ok()
 }
 
 /// How far a lattice is from the truth, as a share of the truth's shorter vector; 1 of none, and

@@ -17,9 +17,9 @@ pub use ensemble::{Ensemble, Lamp};
 pub use height_scale::{HeightScale, ScaledRelief};
 pub use heights::{HeightImport, HeightPlace, ImportOptions};
 pub use kes::{KesFigures, KesImport};
-pub use picture::PictureTextile;
 #[cfg(test)]
 pub(crate) use picture::to_textile;
+pub use picture::{MadeOfPicture, PictureTextile};
 pub use rebuild::rebuilt;
 
 use std::path::Path;

@@ -15,8 +15,8 @@ use crate::picture::shading::{ShadingError, Shape};
 use crate::picture::{PictureScale, Tile};
 use crate::recipe::{ProfileFiles, SourceKeys as _, source};
 use crate::sources::Source;
-use crate::sources::picture::PictureSource;
-use crate::surface::{Direction, HeightMap, Probe, Representation, Surface};
+use crate::sources::picture::{PictureSource, Synthesis};
+use crate::surface::{Direction, HeightMap, Probe, ProfileSet, Representation, Surface};
 use crate::tactile::{Filters, Levels};
 use crate::yarns::PX_PER_MM;
 use selvedge_foundation::files::sha256_hex;
@@ -47,6 +47,9 @@ pub struct PictureTextile {
     pub picture: Option<[String; 2]>,
     /// The vectors by which its pattern repeats, px, x to the right and y up.
     pub lattice_px: Option<[[f64; 2]; 2]>,
+    /// The extent of cloth that is synthesized of the shape and felt in its place, mm; `None`: the
+    /// shape over and over.
+    pub extent_mm: Option<f64>,
     /// Whether the light was estimated.
     pub light_is_estimated: bool,
     /// How far levels may be off: see [`Uncertainty::levels`].
@@ -56,6 +59,9 @@ pub struct PictureTextile {
 }
 
 impl PictureTextile {
+    /// How much cloth is synthesized unless stated, mm each way.
+    pub const EXTENT_MM: f64 = 60.0;
+
     /// The distance of a shape's samples, mm.
     pub(super) fn step_mm(&self, n: [usize; 2]) -> [f64; 2] {
         let n = n.map(|n| n as f64);
@@ -64,8 +70,18 @@ impl PictureTextile {
     }
 }
 
-/// The files of a textile, its manifest last: `heights.png`, four profiles, the picture. x of the
-/// shape becomes u (the warp), y becomes w (the weft).
+/// A textile of a picture before it is written.
+#[derive(Debug, Clone)]
+pub struct MadeOfPicture {
+    /// Its files, the manifest last: `heights.png`, four profiles, the picture.
+    pub files: Vec<BuiltFile>,
+    /// What is felt: the map over and over, or cloth that is synthesized of it.
+    pub map: HeightMap,
+    /// What the tester records, by [`Direction::index`].
+    pub profiles: ProfileSet,
+}
+
+/// The textile of a shape: x becomes u (the warp), y becomes w (the weft).
 ///
 /// # Errors
 /// Heights without a scale; a flat shape; less than 2 × 2 px; a scale out of range; an SMD that
@@ -73,9 +89,11 @@ impl PictureTextile {
 pub(crate) fn to_textile(
     shape: &Shape,
     about: &PictureTextile,
-) -> Result<Vec<BuiltFile>, TextileError> {
+    synthesis: Option<Synthesis>,
+) -> Result<MadeOfPicture, TextileError> {
     let path = Path::new(MAP);
     let mut keys = keys(shape, about);
+    keys.synthesis = synthesis;
     let scaled = heights(shape, about, &keys)?;
     (keys.relief_um, keys.smd_um) = (rounded(scaled.relief_um), scaled.smd_um);
     let bytes = metrology::write(&measured(&scaled.map, &about.name), path)?;
@@ -89,10 +107,11 @@ pub(super) fn again(
     keys: &PictureSource,
     (bytes, path): (Vec<u8>, &Path),
 ) -> Result<Vec<BuiltFile>, TextileError> {
-    drawn(bytes, keys.clone(), path, |keys| Manifest {
+    let made = drawn(bytes, keys.clone(), path, |keys| Manifest {
         source: Source::Picture(Box::new(keys)),
         ..manifest.clone()
-    })
+    })?;
+    Ok(made.files)
 }
 
 /// Map, strokes over the map as the file has it, and picture, with their manifest.
@@ -101,10 +120,10 @@ fn drawn(
     mut keys: PictureSource,
     path: &Path,
     manifest: impl FnOnce(PictureSource) -> Manifest,
-) -> Result<Vec<BuiltFile>, TextileError> {
-    let map = keys.map();
-    let kept = map.open(&bytes, path)?;
-    let profiles = map.strokes(&kept, path)?;
+) -> Result<MadeOfPicture, TextileError> {
+    let kept = keys.open(&bytes, path)?;
+    let map = keys.map().level(&kept, path)?;
+    let profiles = keys.map().strokes(&kept, path)?;
     let mut files = vec![BuiltFile::new(&keys.file, bytes)];
     files.extend(profile_files(&profiles)?);
     let image = shaded(&kept).map_err(no_surface)?;
@@ -113,27 +132,40 @@ fn drawn(
     let hash = Source::Picture(Box::new(keys.clone())).recipe_hash(path)?;
     keys.set_files(ProfileFiles::all(), Some(hash));
     files.push(manifest_file(&manifest(keys), Path::new(MANIFEST))?);
-    Ok(files)
+    Ok(MadeOfPicture {
+        files,
+        map,
+        profiles,
+    })
 }
 
 impl PictureTextile {
-    /// The files of a textile of that shape; size and lattice are taken from what it was cut from.
+    /// The textile of that shape; size and lattice are taken from what it was cut from.
     ///
     /// # Errors
     /// See [`to_textile`].
     pub fn files_of(
         shape: &Shape,
         brightness: &Brightness,
-        tile: &Tile,
+        tile: Option<&Tile>,
         about: &Self,
-    ) -> Result<Vec<BuiltFile>, TextileError> {
+    ) -> Result<MadeOfPicture, TextileError> {
         let y_up = |[x, y]: [f64; 2]| [x, -y];
         let about = Self {
             size_px: Some(brightness.size_px),
-            lattice_px: Some([y_up(tile.p1_px), y_up(tile.p2_px)]),
+            lattice_px: tile.map(|tile| [tile.p1_px, tile.p2_px].map(y_up)),
             ..about.clone()
         };
-        to_textile(shape, &about)
+        // On the map: along its rows, which are turned in the picture, and up.
+        let (s, c) = brightness.angle_rad.sin_cos();
+        let on_map =
+            |[x, y]: [f64; 2]| [x * c + y * s, x * s - y * c].map(|px| px / about.px_per_mm);
+        let synthesis = about.extent_mm.map(|mm| Synthesis {
+            size_mm: [mm; 2],
+            cell_mm: tile.map(|tile| [tile.p1_px, tile.p2_px].map(on_map)),
+            seed: 1,
+        });
+        to_textile(shape, &about, synthesis)
     }
 
     /// From the lowest to the highest height of the textile that would be made, µm.
@@ -234,6 +266,7 @@ fn keys(shape: &Shape, about: &PictureTextile) -> PictureSource {
         place_mm: None,
         noise_um: Probe::default().noise_um,
         seed: 1,
+        synthesis: None,
     })
 }
 

@@ -159,7 +159,7 @@ impl Library {
     }
 
     /// One textile whose files are at hand and lie in no folder yet.
-    pub(crate) fn of_files(id: &str, files: Vec<BuiltFile>) -> Self {
+    pub fn of_files(id: &str, files: Vec<BuiltFile>) -> Self {
         let store = Store::Built(Arc::new(files), PathBuf::from("the new textile"));
         Self::new(Place::Files(store), vec![id.to_owned()], None)
     }

@@ -5,11 +5,10 @@
 
 use super::autocorrelation::Autocorrelation;
 use super::basis::{Basis, mix};
-use super::brightness::Brightness;
 use super::colour::PeriodicColour;
 use super::directions::{DirectionOptions, Directions};
 use super::lattice::{Lattice, NoLattice};
-use super::light::{EvenLight, even_light, mean_and_variance};
+use super::light::{EvenLight, even_light};
 use super::maxima::Maxima;
 use super::part::flattest;
 use super::significant::SignificantMaxima;
@@ -141,20 +140,6 @@ impl Found {
         unwarped.map_or(luminance, |unwarped| &unwarped.luminance)
     }
 
-    /// What heights are found on: the whole picture as it is, if it is given, or the mean cell.
-    /// Without a scale the whole lattice still has a shape; only synthesized cloth needs one.
-    pub fn brightness(
-        &self,
-        whole: Option<&Grid<f64>>,
-        px_per_mm: Option<f64>,
-        n_threads: usize,
-    ) -> Brightness {
-        match whole {
-            Some(luminance) => Brightness::of_picture(self.laid(luminance), self.turn_rad()),
-            None => Brightness::of(&self.tile, px_per_mm.unwrap_or(1.0), n_threads),
-        }
-    }
-
     /// Whether repeats drift over the picture, so that the mean of all cells is blurred.
     pub fn drifts(&self) -> bool {
         self.explained_variance < DRIFT * self.lattice.level
@@ -166,7 +151,7 @@ impl Found {
     /// The work was cancelled.
     pub fn of(
         luminance: &Grid<f64>,
-        picture: &Picture,
+        colour: Option<&Grid<[f32; 2]>>,
         lattice: Lattice,
         n_threads: usize,
         progress: &mut Progress<'_>,
@@ -174,7 +159,7 @@ impl Found {
         let all = |share: f64| progress.step(0.8 + 0.06 * share, "averaging the cells");
         let (whole, explained_variance) = Tile::refine(luminance, lattice.basis(), n_threads, all)?;
         let basis = whole.basis();
-        let colour = PeriodicColour::of(&whole, picture.colour.as_ref(), basis, n_threads);
+        let colour = PeriodicColour::of(&whole, colour, basis, n_threads);
         let is_flat = explained_variance >= LIES_FLAT * lattice.level;
         let from_maxima = [lattice.p1_px, lattice.p2_px];
         let drifts = explained_variance < DRIFT * lattice.level;
@@ -238,15 +223,13 @@ impl Analysis {
     /// # Errors
     /// The work was cancelled. A picture without a lattice is no error.
     pub fn of(
-        picture: &Picture,
+        Picture { luminance, colour }: Picture,
         options: &AnalysisOptions,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Cancelled> {
         progress.step(0.0, "evening out the light")?;
-        let (luminance, was_evened) = even_light(&picture.luminance, options.light);
-        let (width, height) = (luminance.width(), luminance.height());
-        let variance = mean_and_variance(&luminance).1;
-        if let Err(reason) = Lattice::worth_looking(width, height, variance) {
+        let (luminance, was_evened) = even_light(luminance, options.light);
+        if let Err(reason) = Lattice::worth_looking(&luminance) {
             return Ok(Self {
                 luminance,
                 was_evened,
@@ -261,7 +244,7 @@ impl Analysis {
         let found = match lattice {
             Ok(lattice) => Ok(Found::of(
                 &luminance,
-                picture,
+                colour.as_ref(),
                 lattice,
                 options.n_threads,
                 progress,

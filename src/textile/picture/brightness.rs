@@ -8,7 +8,9 @@
 //! angles counter-clockwise. A light is always said as it falls on the *picture*, y up; these
 //! functions turn it to the axes of what was cut from it.
 
+use super::analysis::Found;
 use super::basis::{Basis, dot, length, whole};
+use super::relief::ReliefOf;
 use super::shading::{Light, LightEstimate, ShadingError, ShadingOptions, Shape};
 use super::source::between;
 use super::tile::Tile;
@@ -53,6 +55,22 @@ pub struct Brightness {
 }
 
 impl Brightness {
+    /// What heights are found on: the picture, whether it has a lattice or not, or the mean cell;
+    /// `None` where there is no lattice and so no cell. Only a cell that is no rectangle needs the
+    /// scale.
+    pub fn ground(
+        (relief_of, luminance): (ReliefOf, &Grid<f64>),
+        found: Option<&Found>,
+        px_per_mm: Option<f64>,
+        n_threads: usize,
+    ) -> Option<Self> {
+        Some(match (relief_of, found) {
+            (ReliefOf::Cell, found) => Self::of(&found?.tile, px_per_mm.unwrap_or(1.0), n_threads),
+            (_, Some(found)) => Self::of_picture(found.laid(luminance), found.turn_rad()),
+            (_, None) => Self::of_picture(luminance, 0.0),
+        })
+    }
+
     /// Cuts from a tile the rectangle that repeats, sampled at 1 px; where the lattice has none,
     /// synthesizes textile that holds a window of the finger or more at this scale.
     pub fn of(tile: &Tile, px_per_mm: f64, n_threads: usize) -> Self {
@@ -72,8 +90,11 @@ impl Brightness {
 
 /// Samples a side of a picture that is felt as it is, at most; over this share of its size its
 /// edges go over into each other, so that it repeats.
-const MAX_WHOLE: f64 = 384.0;
+const MAX_WHOLE: usize = 384;
 const FADE: f64 = 0.1;
+/// Sides are multiples of this where they can be, so that transforms of them and of their halves
+/// are quick: of 383 samples, a prime, one takes several times as long as of 384.
+const MULTIPLE: usize = 16;
 
 impl Brightness {
     /// The middle of a picture as it is, no cell and no mean: what varies from yarn to yarn stays.
@@ -83,7 +104,15 @@ impl Brightness {
         let [w, h] = [luminance.width() as f64, luminance.height() as f64];
         // The largest rectangle of the picture's own sides that fits.
         let share = (w / (w * c.abs() + h * s.abs())).min(h / (w * s.abs() + h * c.abs()));
-        let n = [w, h].map(|side| to_index((side * share).min(MAX_WHOLE * (1.0 + FADE))).max(1));
+        let kept = [w, h].map(|side| {
+            let n = to_index(side * share / (1.0 + FADE)).clamp(1, MAX_WHOLE);
+            if n < 4 * MULTIPLE {
+                n
+            } else {
+                n - n % MULTIPLE
+            }
+        });
+        let n = kept.map(|n| to_index(n as f64 * (1.0 + FADE)));
         let middle = [0.5 * (w - 1.0), 0.5 * (h - 1.0)];
         let at = |column: usize, row: usize| {
             let x = column as f64 - 0.5 * (n[0] - 1) as f64;
@@ -91,8 +120,8 @@ impl Brightness {
             let place = [middle[0] + x * c - y * s, middle[1] + x * s + y * c];
             between(luminance, place, |a, b, t| a + (b - a) * t)
         };
-        let cut = faded(&Grid::from_fn(n[0], n[1], at));
-        let cut = faded(&cut.transposed()).transposed();
+        let cut = faded(&Grid::from_fn(n[0], n[1], at), kept[0]);
+        let cut = faded(&cut.transposed(), kept[1]).transposed();
         Self {
             size_px: [cut.width() as f64, cut.height() as f64],
             values: upright(&cut),
@@ -102,9 +131,8 @@ impl Brightness {
     }
 }
 
-/// Rows whose last samples went over into their first.
-fn faded(grid: &Grid<f64>) -> Grid<f64> {
-    let n = to_index(grid.width() as f64 / (1.0 + FADE)).max(1);
+/// Rows of n samples, the last of longer ones gone over into their first.
+fn faded(grid: &Grid<f64>, n: usize) -> Grid<f64> {
     let over = grid.width() - n;
     Grid::from_fn(n, grid.height(), |column, row| {
         let row = grid.row(row);
@@ -271,7 +299,7 @@ mod tests {
         };
         let picture = picture(basis);
         let found =
-            Progress::unheard(|progress| Analysis::of(&picture, &options, progress)).unwrap();
+            Progress::unheard(|progress| Analysis::of(picture, &options, progress)).unwrap();
         found.found.unwrap().tile
     }
 

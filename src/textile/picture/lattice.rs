@@ -5,6 +5,7 @@
 //! maxima by least squares and reduced. Whether it is one at all, and whether it is the repeat of a
 //! weave or only its threads, is for what it predicts where it was not looked at.
 
+use selvedge_foundation::numerics::Grid;
 use serde::Serialize;
 
 use super::autocorrelation::Autocorrelation;
@@ -12,6 +13,7 @@ use super::basis::{Basis, Place, length, mix};
 use super::candidates::{Candidate, Method, judge, pairs, tolerance_px};
 use super::directions::Directions;
 use super::held_out::{self, HeldOut, Repeat};
+use super::light::mean_and_variance;
 use super::maxima::Maxima;
 use super::multiples::{Evidence, coarser, finer};
 use super::significant::SignificantMaxima;
@@ -155,7 +157,9 @@ impl Lattice {
     ///
     /// # Errors
     /// The picture is tiny or of one colour.
-    pub fn worth_looking(width: usize, height: usize, variance: f64) -> Result<(), NoLattice> {
+    pub fn worth_looking(luminance: &Grid<f64>) -> Result<(), NoLattice> {
+        let (width, height) = (luminance.width(), luminance.height());
+        let variance = mean_and_variance(luminance).1;
         if width.min(height) < MIN_SIDE {
             return Err(NoLattice::TooSmall(width, height));
         }
@@ -251,7 +255,7 @@ fn starts(
 
 /// How the two ways to the repeat of a weave agree: by heights of maxima, and by what is predicted.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Agreement {
+pub(super) enum Agreement {
     /// They do.
     Same,
     /// What is predicted is clearly better by another lattice.
@@ -265,7 +269,7 @@ enum Agreement {
 impl Agreement {
     /// The share of generated cloths that were right, of those with a lattice that were judged so
     /// (the study of lattices counts it).
-    fn confidence(self) -> f64 {
+    pub(super) fn confidence(self) -> f64 {
         match self {
             Self::Same => 0.98,
             Self::Predicted => 0.85,
@@ -304,7 +308,7 @@ fn agreed(by_heights: Basis, before: &HeldOut, repeat: Option<&Repeat>) -> (Basi
 
 /// Candidates, at least one: those that explain the maxima best first, of equals those from
 /// directions.
-fn candidates(
+pub(super) fn candidates(
     evidence: &Evidence<'_>,
     directions: &Directions,
 ) -> Result<Vec<(Candidate, Method)>, NoLattice> {
@@ -358,7 +362,7 @@ fn are_on_a_line(significant: &SignificantMaxima) -> bool {
 }
 
 /// Mean correlation at the points of a lattice, and the largest half-way between them.
-fn levels(evidence: &Evidence<'_>, basis: &Basis) -> Result<(f64, f64), NoLattice> {
+pub(super) fn levels(evidence: &Evidence<'_>, basis: &Basis) -> Result<(f64, f64), NoLattice> {
     let reach = evidence.near(basis);
     let level = evidence.level(basis, reach, [0.0; 2]);
     let half = |a: f64, b: f64| mix(basis.p1, 0.5 * a, basis.p2, 0.5 * b);

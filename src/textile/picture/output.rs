@@ -77,18 +77,15 @@ pub fn files(
     }
     if let Some(Found { tile, .. }) = found {
         let (low, high) = range(ground);
-        let again = tile.patch(ground.width(), ground.height(), 1.0, 0.0, n_threads);
-        let mut rest = ground.clone();
-        for (value, made) in rest.values_mut().iter_mut().zip(again.values()) {
-            *value += 0.5 * (low + high) - made;
-        }
-        for (name, grid) in [
-            ("tile.png", &tile.values),
-            ("synthesized.png", &again),
-            ("residual.png", &rest),
-        ] {
+        let mut again = tile.patch(ground.width(), ground.height(), 1.0, 0.0, n_threads);
+        for (name, grid) in [("tile.png", &tile.values), ("synthesized.png", &again)] {
             all.push((name, grey(grid, low, high).to_png(Path::new(name))?));
         }
+        for (made, value) in again.values_mut().iter_mut().zip(ground.values()) {
+            *made = value + 0.5 * (low + high) - *made;
+        }
+        let name = "residual.png";
+        all.push((name, grey(&again, low, high).to_png(Path::new(name))?));
     }
     if let Some((relief, relief_um)) = &about.relief {
         let height = relief.picture(about.px_per_mm, *relief_um)?;

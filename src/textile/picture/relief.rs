@@ -2,12 +2,24 @@
 
 use std::path::Path;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::brightness::{Brightness, Extent};
 use super::shading::{Light, LightEstimate, ShadingError, ShadingOptions, Shape};
 use selvedge_foundation::files::{FileError, GrayImage};
 use selvedge_foundation::progress::Progress;
+
+/// What heights are found on, and what becomes of what varies from cell to cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum ReliefOf {
+    /// The picture as it is, over and over.
+    #[default]
+    Picture,
+    /// The picture as it is; of that, cloth without a visible repetition.
+    Synthesized,
+    /// The mean cell, over and over: nothing varies.
+    Cell,
+}
 
 /// Heights found on a picture, with where they come from.
 #[derive(Debug, Clone)]

@@ -36,18 +36,19 @@ impl PictureScale {
         }
     }
 
-    /// Pixels to a millimetre on a picture with this lattice. A warp of a and a weft of b threads
+    /// Pixels to a millimetre on a picture with this lattice, or with none. A warp of a and a weft of b threads
     /// to a centimetre cross a·b/100 times on a square millimetre; the thread grid says on how many
     /// pixels they cross once, whichever of its vectors is the warp.
     ///
     /// # Errors
     /// Threads were counted, and no grid of them was found, or one that is denser one way by
     /// another factor.
-    pub fn px_per_mm(self, lattice: &Lattice) -> Result<f64, PictureError> {
+    pub fn px_per_mm(self, lattice: Option<&Lattice>) -> Result<f64, PictureError> {
         let Self::ThreadsPerCm([a, b]) = self else {
             return Ok(self.stated_px_per_mm().unwrap_or(f64::NAN));
         };
-        let grid = lattice.thread_grid.ok_or_else(|| {
+        let grid = lattice.and_then(|lattice| Some((lattice, lattice.thread_grid?)));
+        let (lattice, grid) = grid.ok_or_else(|| {
             let what = "no grid of threads finer than the repeat is found to count them on";
             PictureError::Input(format!("{what}; give the scale as --dpi or --px-per-mm"))
         })?;
@@ -92,18 +93,20 @@ mod tests {
     fn threads_counted_are_a_scale_whichever_way_the_warp_lies() {
         let plain = lattice(Some(Basis::new([0.0, 8.0], [10.0, 0.0])));
         for counts in [[20.0, 25.0], [25.0, 20.0]] {
-            let px_per_mm = PictureScale::ThreadsPerCm(counts).px_per_mm(&plain);
+            let px_per_mm = PictureScale::ThreadsPerCm(counts).px_per_mm(Some(&plain));
             // 25 a centimetre lie 0.4 mm apart: 8.08 px.
             assert!((px_per_mm.unwrap() - 20.2).abs() < 1e-9, "{counts:?}");
         }
         for counts in [[20.0, 40.0], [20.0, 15.0 / 1.3]] {
-            let error = PictureScale::ThreadsPerCm(counts).px_per_mm(&plain);
+            let error = PictureScale::ThreadsPerCm(counts).px_per_mm(Some(&plain));
             let line = error.unwrap_err().to_string();
             assert!(line.contains("1.25 times as dense"), "{line}");
         }
-        let none = PictureScale::ThreadsPerCm([20.0, 25.0]).px_per_mm(&lattice(None));
-        let line = none.unwrap_err().to_string();
-        assert!(line.contains("no grid of threads"), "{line}");
+        for lattice in [None, Some(&lattice(None))] {
+            let none = PictureScale::ThreadsPerCm([20.0, 25.0]).px_per_mm(lattice);
+            let line = none.unwrap_err().to_string();
+            assert!(line.contains("no grid of threads"), "{line}");
+        }
     }
 
     #[test]
@@ -115,6 +118,6 @@ mod tests {
             PictureScale::ThreadsPerCm([1.0; 2]).stated_px_per_mm(),
             None
         );
-        assert_eq!(ruler.px_per_mm(&lattice(None)).unwrap(), 25.0);
+        assert_eq!(ruler.px_per_mm(None).unwrap(), 25.0);
     }
 }

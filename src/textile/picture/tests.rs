@@ -18,7 +18,7 @@ fn options(n_threads: usize) -> AnalysisOptions {
 }
 
 fn analysed(luminance: Grid<f64>) -> Analysis {
-    Progress::unheard(|progress| Analysis::of(&Picture::grey(luminance), &options(2), progress))
+    Progress::unheard(|progress| Analysis::of(Picture::grey(luminance), &options(2), progress))
         .unwrap()
 }
 
@@ -406,9 +406,10 @@ fn the_bytes_of_every_file_are_the_same_for_any_number_of_threads() {
     let cloth = Cloth::random(&mut random);
     let picture = Picture::grey(spoiled(&cloth, &mut random));
     let made = |n_threads: usize| {
-        let analysis =
-            Progress::unheard(|progress| Analysis::of(&picture, &options(n_threads), progress))
-                .unwrap();
+        let analysis = Progress::unheard(|progress| {
+            Analysis::of(picture.clone(), &options(n_threads), progress)
+        })
+        .unwrap();
         files(&analysis, &About::default(), n_threads).unwrap()
     };
     let one = made(1);
@@ -436,7 +437,7 @@ fn work_that_is_cancelled_ends() {
     let mut progress = Progress::new(&mut nobody, cancel);
     let picture = Picture::grey(Grid::filled(50, 50, 0.1));
     assert!(
-        Analysis::of(&picture, &options(1), &mut progress).is_err(),
+        Analysis::of(picture, &options(1), &mut progress).is_err(),
         "cancelled"
     );
 }
@@ -460,8 +461,31 @@ fn a_printed_pattern_is_told_by_its_colour() {
     };
     for (picture, is_printed) in [(printed, true), (dyed, false)] {
         let analysis =
-            Progress::unheard(|progress| Analysis::of(&picture, &options(1), progress)).unwrap();
+            Progress::unheard(|progress| Analysis::of(picture, &options(1), progress)).unwrap();
         let found = analysis.found.unwrap();
         assert_eq!(found.colour.is_printed(), is_printed, "{:?}", found.colour);
+    }
+}
+
+#[test]
+fn a_lattice_that_is_given_is_judged_by_what_it_explains() {
+    let cloth = Cloth::random(&mut Random::new(3));
+    let analysis = analysed(drawn(WIDTH, HEIGHT, |x, y| 0.5 + 0.1 * cloth.at([x, y])));
+    let measured = analysis.measured.unwrap();
+    let read = (&measured.rho, &measured.maxima, &measured.significant);
+    let found = analysis.found.unwrap().lattice;
+    let given = |basis: Basis| Lattice::given(read, basis).held_out.unwrap();
+    let right = given(found.basis());
+    let Basis { p1, p2 } = found.basis();
+    let wrong = given(Basis::new(
+        [1.13 * p1[0], p1[1] + 2.3],
+        [p2[0] - 1.7, 0.91 * p2[1]],
+    ));
+    assert!(right > 0.9 && wrong < 0.5 * right, "{right} and {wrong}");
+    let others = Lattice::others(read, &measured.directions, Some(&found));
+    assert!(others.len() <= 3, "{others:?}");
+    for other in others {
+        let off = other.basis().distance_to(&found.basis());
+        assert!(off > 0.05 * found.basis().shorter(), "{other:?}");
     }
 }

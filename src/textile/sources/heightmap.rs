@@ -187,7 +187,12 @@ impl Heightmap {
         self.strokes_at(&self.laid(measured, path)?, self.place_mm, path)
     }
 
-    fn level(&self, measured: &Measured, path: &Path) -> Result<HeightMap, TextileError> {
+    /// Measured heights, level unless they repeat; missing points stay missing.
+    pub(crate) fn level(
+        &self,
+        measured: &Measured,
+        path: &Path,
+    ) -> Result<HeightMap, TextileError> {
         let map = HeightMap::new(measured.heights_um.clone(), measured.step_mm);
         let map = map.map_err(TextileError::surface(path))?;
         let map = if measured.is_profile() {
@@ -278,7 +283,6 @@ impl HeightsFile for Heightmap {
         &self.file
     }
 
-    /// Level unless it repeats; missing points stay missing.
     fn height_map(&self, bytes: &[u8], path: &Path) -> Result<HeightMap, TextileError> {
         self.level(&self.open(bytes, path)?, path)
     }

@@ -1,13 +1,19 @@
 //! The kind `picture`: heights that were found on a picture, kept as a map of one repeat beside
 //! the manifest, with what they were found by.
 
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
 use super::heightmap::Heightmap;
 use crate::error::TextileError;
-use crate::metrology::HeightOptions;
-use crate::picture::PictureScale;
+use crate::metrology::{HeightOptions, Measured};
 use crate::picture::shading::{Light, Method};
+use crate::picture::{Basis, PictureScale, synthesized};
 use crate::recipe::{Checker, HeightsFile, KeySpec, Recipe, defaults, keys};
-use crate::surface::{Probe, Representation};
+use crate::surface::{HeightMap, Probe, ProfileSet, Representation};
+use selvedge_foundation::files::FileError;
+use selvedge_foundation::numerics::{Random, to_index};
 
 keys! {
     /// Heights found on a picture (`kind = "picture"`).
@@ -62,8 +68,53 @@ keys! {
         /// Chooses that noise.
         #[serde(default = "default_seed")]
         pub(crate) seed: u32,
+        /// The cloth that is made of the map and felt in its place; the map over and over if none
+        /// is stated.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub(crate) synthesis: Option<Synthesis>,
     }
 }
+
+/// Cloth that is synthesized of a map: its mean cell over and over, and what varies from cell to
+/// cell drawn anew.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Synthesis {
+    /// Its extent along u and w, mm; somewhat more, so that cells fit.
+    pub(crate) size_mm: [f64; 2],
+    /// The two vectors by which the pattern of the map repeats, mm along u and w; none of a
+    /// pattern without a repeat.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) cell_mm: Option<[[f64; 2]; 2]>,
+    /// Chooses what is drawn.
+    pub(crate) seed: u32,
+}
+
+impl Synthesis {
+    /// Puts the cloth in the place of a map.
+    fn extend(self, measured: &mut Measured, path: &Path) -> Result<(), TextileError> {
+        let step_mm = measured.step_mm;
+        let n = [0, 1].map(|axis| to_index((self.size_mm[axis] / step_mm[axis]).round()).max(1));
+        if n[0].saturating_mul(n[1]) > MAX_SYNTHESIZED {
+            let what = format!(
+                "{} × {} mm of synthesized cloth are {} × {} points, more than 16 million",
+                self.size_mm[0], self.size_mm[1], n[0], n[1]
+            );
+            let mend = "give less as size_mm (--extent-mm)";
+            return Err(FileError::whole(path, what, mend).into());
+        }
+        let map = HeightMap::new(measured.heights_um.clone(), step_mm);
+        let map = map.map_err(TextileError::surface(path))?.filled();
+        let points = |[u, w]: [f64; 2]| [u / step_mm[0], w / step_mm[1]];
+        let cell = self.cell_mm.map(|[a, b]| Basis::new(points(a), points(b)));
+        let mut random = Random::new(u64::from(self.seed)).branch("synthesis");
+        measured.heights_um = synthesized(map.heights_um(), cell, n, &mut random);
+        Ok(())
+    }
+}
+
+/// Points of synthesized cloth at most.
+const MAX_SYNTHESIZED: usize = 1 << 24;
 
 defaults! {
     default_noise: f64 = Probe::default().noise_um;
@@ -89,22 +140,37 @@ impl PictureSource {
         for place in self.place_mm.into_iter().flatten() {
             within("place_mm", place, 0.0..=10_000.0)?;
         }
-        let Some([a, b]) = self.lattice_px else {
-            return Ok(());
-        };
-        for px in [a, b].into_iter().flatten() {
-            within("lattice_px", px, -1e5..=1e5)?;
+        for mm in self.synthesis.iter().flat_map(|all| all.size_mm) {
+            within("size_mm", mm, 1.0..=1000.0)?;
         }
-        let area_px = (a[0] * b[1] - a[1] * b[0]).abs();
-        if area_px >= 1.0 {
-            return Ok(());
+        let cell_mm = self.synthesis.and_then(|all| all.cell_mm);
+        for (key, vectors, least) in [
+            ("lattice_px", self.lattice_px, 1.0),
+            ("cell_mm", cell_mm, 1e-6),
+        ] {
+            let Some([a, b]) = vectors else { continue };
+            for length in [a, b].into_iter().flatten() {
+                within(key, length, -1e5..=1e5)?;
+            }
+            if (a[0] * b[1] - a[1] * b[0]).abs() < least {
+                let what = format!("the two vectors of {key} are parallel");
+                return Err(checker.wrong("source", key, what, "give two that span a repeat"));
+            }
         }
-        let what = "the two vectors of lattice_px are parallel";
-        Err(checker.wrong("source", "lattice_px", what, "give two that span a repeat"))
+        Ok(())
+    }
+
+    /// What is felt: the map as its file has it, or cloth that is synthesized of it.
+    pub(crate) fn open(&self, bytes: &[u8], path: &Path) -> Result<Measured, TextileError> {
+        let mut measured = self.map().open(bytes, path)?;
+        if let Some(synthesis) = self.synthesis {
+            synthesis.extend(&mut measured, path)?;
+        }
+        Ok(measured)
     }
 
     /// Its map as a file of heights that repeats: what reads and strokes it.
-    pub fn map(&self) -> Heightmap {
+    pub(crate) fn map(&self) -> Heightmap {
         let mut map = Heightmap::new(self.file.clone(), &HeightOptions::default());
         map.sha256.clone_from(&self.sha256);
         map.representation = self.representation;
@@ -128,6 +194,20 @@ impl Recipe for PictureSource {
     }
 
     fn heights_file(&self) -> Option<Box<dyn HeightsFile>> {
-        Some(Box::new(self.map()))
+        Some(Box::new(self.clone()))
+    }
+}
+
+impl HeightsFile for PictureSource {
+    fn name(&self) -> &str {
+        &self.file
+    }
+
+    fn height_map(&self, bytes: &[u8], path: &Path) -> Result<HeightMap, TextileError> {
+        self.map().level(&self.open(bytes, path)?, path)
+    }
+
+    fn profiles(&self, bytes: &[u8], path: &Path) -> Result<ProfileSet, TextileError> {
+        self.map().strokes(&self.open(bytes, path)?, path)
     }
 }

@@ -1,5 +1,7 @@
 //! Edits: the document changes at once, the engine follows with what it needs.
 
+use std::sync::Arc;
+
 use crate::bench::applied_gains::AppliedGains;
 use crate::bench::command::edit::Edit;
 use crate::bench::gain_set::GainSet;
@@ -41,7 +43,7 @@ impl Bench {
             let moved = editing::place_after(before, &after, index);
             moved.or_else(|| (is_new && index + 1 == after.textiles.len()).then_some(index))
         });
-        if preparing::differs(self.engine_scene.loaded.scene(), &after)
+        if preparing::differs(self.engine_scene.loaded.scene(), &self.heard(&after))
             || self.engine_scene.preparing.is_busy()
         {
             self.prepare(&after);
@@ -51,12 +53,15 @@ impl Bench {
     }
 
     fn prepare(&mut self, scene: &Scene) {
-        let scene = self.gains_now(scene).in_scene(scene);
+        let scene = self.gains_now(scene).in_scene(&self.heard(scene));
         let what = (scene, self.settings.preferences.rendering);
-        let asked =
-            self.engine_scene
-                .preparing
-                .ask(&self.engine_scene.loaded, what, &self.executor);
+        let mut loaded = self.engine_scene.loaded.clone();
+        let listening = self.library.acts.listening.as_ref();
+        if let Some((new, _)) = listening.and_then(|listening| listening.new.as_ref()) {
+            loaded.lend(Arc::clone(new));
+        }
+        let preparing = &mut self.engine_scene.preparing;
+        let asked = preparing.ask(&loaded, what, &self.executor);
         match asked {
             Some(outcome) => self.take_prepared(outcome),
             None => self.poll_prepared(),
@@ -128,7 +133,7 @@ impl Bench {
                 );
                 if tried != self.engine_scene.rendering {
                     // It was not the scene: what is left of the edit is tried as before.
-                    if preparing::differs(self.engine_scene.loaded.scene(), &before) {
+                    if preparing::differs(self.engine_scene.loaded.scene(), &self.heard(&before)) {
                         self.prepare(&before);
                     }
                     return;

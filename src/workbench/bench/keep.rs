@@ -9,6 +9,10 @@ use crate::bench::library_shelf::plain_id;
 use crate::bench::view::LibraryEntry;
 use selvedge_textile::BuiltFile;
 
+/// What the button “Keep…” says of itself, wherever it stands.
+pub(crate) const KEEP_TIP: &str =
+    "Feel it beside textiles of the library, then keep it in your own library, or in the scene’s";
+
 /// A textile that was made in the window and lies in no folder yet.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct NewTextile {
@@ -20,11 +24,14 @@ pub(crate) struct NewTextile {
     pub files: Vec<BuiltFile>,
 }
 
+/// New textiles of one act.
+pub(crate) type NewTextiles = Arc<Vec<NewTextile>>;
+
 /// What is done with new textiles.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Keep {
     /// They.
-    pub(crate) textiles: Arc<Vec<NewTextile>>,
+    pub(crate) textiles: NewTextiles,
     /// Whether the first is laid into the scene.
     pub(crate) is_felt: bool,
     /// What is done where a textile with the same name or id is there; `None` asks.
@@ -62,7 +69,7 @@ pub(crate) struct Place {
 
 impl Keep {
     /// Of textiles that are to be felt, or not.
-    pub(crate) fn of(textiles: Arc<Vec<NewTextile>>, is_felt: bool) -> Self {
+    pub(crate) fn of(textiles: NewTextiles, is_felt: bool) -> Self {
         Self {
             textiles,
             is_felt,

@@ -31,6 +31,11 @@ pub(crate) trait Computed<Key>: Send + Sync + Sized + 'static {
     /// What stands for a value that could not be computed, with the reason.
     fn broken(key: &Key, why: &str) -> Self;
 
+    /// Whether it is done; if not, it is shown, and the work goes on from it.
+    fn is_whole(&self) -> bool {
+        true
+    }
+
     /// Whether work under way is worth its end although another key is asked for now.
     fn serves(under_way: &Key, now: &Key) -> bool;
 }
@@ -86,7 +91,8 @@ impl<Key: Clone + PartialEq + Send + Sync + 'static, Value: Computed<Key>> Lates
 
     /// How the last value stands to `key`.
     pub(crate) fn standing(&self, key: &Key) -> Standing {
-        if self.key() == Some(key) {
+        let is_of = |(of, value): &(Key, Arc<Value>)| of == key && value.is_whole();
+        if self.found.as_ref().is_some_and(is_of) {
             return Standing::Fresh;
         }
         if self.stopped.as_ref() == Some(key) {
@@ -147,6 +153,10 @@ impl<Key: Clone + PartialEq + Send + Sync + 'static, Value: Computed<Key>> Lates
         self.running = Some((key.clone(), task));
         if matches!(executor, Executor::InLine) {
             self.poll();
+            let is_part = |(of, value): &(Key, Arc<Value>)| of == key && !value.is_whole();
+            if self.found.as_ref().is_some_and(is_part) {
+                self.follow(ctx, executor, key);
+            }
         }
     }
 }

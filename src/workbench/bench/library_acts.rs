@@ -10,7 +10,9 @@ use std::sync::Arc;
 
 use crate::bench::background::Task;
 use crate::bench::history::{History, Moment, StepList};
-use crate::bench::keep::{Keep, Taken};
+use crate::bench::keep::{Keep, NewTextiles, Taken};
+use crate::bench::listening::Listening;
+use crate::bench::pane::Pane;
 use selvedge_textile::{BuiltFile, Change, Library, LibraryFolder, TextileError, called};
 
 /// Which version stands under an id of a folder; `None`: nothing.
@@ -19,6 +21,12 @@ pub(crate) type Arrangement = BTreeMap<(LibraryFolder, String), Option<String>>;
 /// An act that is wanted of a library; textiles are named by the id by which the scene finds them.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum LibraryCommand {
+    /// Listen to new textiles of a pane, and then keep them or not.
+    Listen(NewTextiles, Pane),
+    /// Feel the new textile (0) or what it is compared with (1, 2).
+    Feel(usize),
+    /// Compare a new textile with another in the first or the second place.
+    CompareWith(usize, String),
     /// Keep new textiles.
     Keep(Keep),
     /// Let go of textiles that wait for an answer.
@@ -90,6 +98,8 @@ pub(crate) struct LibraryActs {
     pub(crate) own_folder: Option<PathBuf>,
     /// New textiles that wait for an answer.
     pub(crate) taken: Option<Taken>,
+    /// New textiles that are listened to.
+    pub(crate) listening: Option<Listening>,
     /// Whether the last thing that was done was done with a library.
     pub(crate) is_last: bool,
     pub(crate) task: Option<Task<Worked>>,

@@ -48,9 +48,28 @@ impl Bench {
             return self.library.acts.next.push_back(command);
         }
         let asked = match command {
-            LibraryCommand::Keep(keep) => self.work_of_keep(keep),
+            LibraryCommand::Listen(textiles, from) => {
+                self.listen_to(textiles, from);
+                Ok(None)
+            }
+            LibraryCommand::Feel(nth) => {
+                self.listen_otherwise(|listening| listening.felt = nth);
+                Ok(None)
+            }
+            LibraryCommand::CompareWith(nth, id) => {
+                self.listen_otherwise(|listening| {
+                    listening.references[nth] = Some(id);
+                    listening.felt = nth + 1;
+                });
+                Ok(None)
+            }
+            LibraryCommand::Keep(keep) => {
+                self.stop_listening();
+                self.work_of_keep(keep)
+            }
             LibraryCommand::ForgetKeep => {
                 self.library.acts.taken = None;
+                self.stop_listening();
                 Ok(None)
             }
             LibraryCommand::Rename(key, name) => self.work_of_rename(&key, &name).map(Some),

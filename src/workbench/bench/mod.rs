@@ -34,6 +34,7 @@ pub(crate) mod library_selection;
 pub(crate) mod library_shelf;
 pub(crate) mod library_view;
 pub(crate) mod library_work;
+pub(crate) mod listening;
 pub(crate) mod look_back;
 pub(crate) mod marking;
 pub(crate) mod mute_solo;
@@ -286,6 +287,7 @@ impl Bench {
         self.document = document_of(&opened.loaded, opened.path.as_deref());
         self.library.view =
             LibraryView::new(Arc::clone(opened.loaded.library()), opened.library_view);
+        self.library.acts.listening = None;
         self.engine_scene.preparing = Preparing::default();
         self.engine_scene.loaded = opened.loaded;
         self.selection.mute_solo = MuteSolo::default();

@@ -20,6 +20,7 @@ impl Bench {
         }
         self.take_files();
         self.poll_library();
+        self.poll_listening();
         self.poll_clips();
         self.poll_sources();
         if let Some(failure) = self.files.folders.poll() {

@@ -16,6 +16,9 @@ impl Bench {
         if self.selection.held_gains.is_some() {
             let words = "a slot of tunings is held";
             origin.and("audition", words, words)
+        } else if self.library.acts.listening.is_some() {
+            let words = "a textile that is not kept is compared";
+            origin.and("audition", words, words)
         } else if self.selection.mute_solo.is_any() {
             let words = "parts are muted or felt alone";
             origin.and("audition", words, words)

@@ -108,8 +108,7 @@ fn strokes_go_through_all_steps_into_the_library() {
     harness.run_steps(4);
     assert_eq!(harness.state().imported_figures(), suggested);
     type_into(&mut harness, "name", "Wool twill");
-    harness.get_by_role_and_label(Role::Button, "Keep").click();
-    harness.run_steps(6);
+    keep(&mut harness, "Keep…", "Keep");
     let made = folder.path("library/wool-twill");
     let manifest = fs::read_to_string(made.join("textile.toml")).unwrap();
     for part in [
@@ -200,10 +199,7 @@ fn a_map_gives_a_textile_for_every_place() {
     harness.run_steps(4);
     assert_eq!(harness.state().imported_figures().len(), 2);
     harness.render().unwrap();
-    harness
-        .get_by_role_and_label(Role::Button, "Keep and feel")
-        .click();
-    harness.run_steps(6);
+    keep(&mut harness, "Keep…", "Keep and lay out");
     for id in ["ripples-1", "ripples-2"] {
         let manifest = folder.path("library").join(id).join("textile.toml");
         let manifest = fs::read_to_string(manifest).unwrap();

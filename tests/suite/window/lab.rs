@@ -102,8 +102,7 @@ fn what_is_kept_reads_back_as_the_textile_that_its_recipe_makes() {
     let mut harness = in_front(&folder);
     harness.get_by_label("Keep page").click();
     harness.run_steps(3);
-    harness.get_by_label("Keep").click();
-    harness.run_steps(4);
+    keep(&mut harness, "Keep…", "Keep");
     let root = folder.path("library");
     let library = Library::open(&root).unwrap();
     let kept = library.load("brownian-surface").unwrap();
@@ -123,8 +122,7 @@ fn what_is_kept_reads_back_as_the_textile_that_its_recipe_makes() {
     harness.run_steps(4);
     // It is on the shelf now, and its name is taken.
     assert!(shows(&harness, "Add Brownian surface"));
-    harness.get_by_label("Keep").click();
-    harness.run_steps(4);
+    keep(&mut harness, "Keep…", "Keep");
     assert!(shows(
         &harness,
         "“Brownian surface” (id brownian-surface) already"
@@ -153,8 +151,7 @@ fn a_family_is_tried_and_all_of_it_is_kept() {
     harness.get_by_label("Try").click();
     harness.run_steps(4);
     harness.render().unwrap();
-    harness.get_by_label("Keep all 5").click_accesskit();
-    harness.run_steps(4);
+    keep(&mut harness, "Keep all 5…", "Keep");
     let library = Library::open(&folder.path("library")).unwrap();
     let kept = (1..=5).map(|n| library.manifest(&format!("brownian-surface-{n}")).unwrap());
     let names: Vec<String> = kept.map(|manifest| manifest.name).collect();

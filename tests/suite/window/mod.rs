@@ -218,6 +218,16 @@ fn type_into(harness: &mut Harness<'_, Workbench>, label: &str, text: &str) {
 }
 
 /// Answers the field that asks for a path.
+/// Presses “Keep…” as it is called here, feels what is asked about, and answers.
+fn keep(harness: &mut Harness<'_, Workbench>, ask: &str, answer: &str) {
+    for name in [ask, answer] {
+        harness
+            .get_by_role_and_label(Role::Button, name)
+            .click_accesskit();
+        harness.run_steps(6);
+    }
+}
+
 fn type_path(harness: &mut Harness<'_, Workbench>, path: &str) {
     type_over(harness, path);
     press(harness, Modifiers::NONE, Key::Enter);

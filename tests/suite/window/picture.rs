@@ -41,13 +41,6 @@ fn with_picture(folder: &Folder, write: impl Fn(&Path)) -> Harness<'static, Work
     harness
 }
 
-fn feel(harness: &mut Harness<'_, Workbench>) {
-    harness
-        .get_by_role_and_label(Role::Button, "Keep and feel")
-        .click();
-    harness.run_steps(6);
-}
-
 #[test]
 fn an_empty_pane_says_what_to_do() {
     let folder = Folder::new("picture-empty");
@@ -67,12 +60,14 @@ fn a_picture_a_scale_and_a_height_are_enough_to_feel_a_cloth() {
     let lengths = lattice.map(|[x, y]| x.hypot(y));
     assert!((lengths[0] - 20.0).abs() < 0.2, "{lattice:?}");
     assert!((lengths[1] - 24.0).abs() < 0.2, "{lattice:?}");
-    feel(&mut harness);
-    assert!(!folder.path("library/blue-twill").exists(), "no scale yet");
+    harness.get_by_role_and_label(Role::Button, "Keep…").click();
+    harness.run_steps(6);
+    let asked = harness.query_by_label_contains("Keep and lay out");
+    assert!(asked.is_none(), "no scale yet");
     type_into(&mut harness, "scale", "600");
     type_into(&mut harness, "height", "80");
     harness.render().unwrap();
-    feel(&mut harness);
+    keep(&mut harness, "Keep…", "Keep and lay out");
     let made = folder.path("library/blue-twill");
     let manifest = fs::read_to_string(made.join("textile.toml")).unwrap();
     for part in [
@@ -136,4 +131,30 @@ fn a_flat_picture_says_why_it_has_no_lattice() {
     let reason = harness.query_by_label_contains("No lattice: the picture is of one colour");
     assert!(reason.is_some());
     assert_eq!(harness.state().picture_lattice(), None);
+}
+
+#[test]
+fn a_lattice_that_is_dragged_shows_what_it_explains_and_is_taken_back() {
+    let folder = Folder::new("picture-lattice");
+    let mut harness = with_picture(&folder, cloth);
+    let found = harness.state().picture_lattice().unwrap();
+    let grip = harness.get_by_role_and_label(Role::Slider, "First vector of the lattice");
+    let at = grip.rect().center();
+    harness.drag_at(at);
+    harness.step();
+    for share in 1..=8_u8 {
+        harness.hover_at(at + vec2(2.0 * f32::from(share), 0.0));
+        harness.step();
+    }
+    harness.drop_at(at + vec2(16.0, 0.0));
+    harness.run_steps(6);
+    let drawn = harness.state().picture_lattice().unwrap();
+    assert_ne!(drawn, found, "the lattice follows");
+    harness.get_by_label_contains("chosen, explains");
+    let found_again = harness.get_by_label_contains("Lattice found");
+    found_again.click_accesskit();
+    harness.run_steps(6);
+    assert_eq!(harness.state().picture_lattice().unwrap(), found);
+    let chosen = harness.query_by_label_contains("chosen, explains");
+    assert!(chosen.is_none(), "it was taken back");
 }

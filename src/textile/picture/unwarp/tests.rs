@@ -40,7 +40,7 @@ fn found(luminance: Grid<f64>) -> Found {
         n_threads: 2,
     };
     let picture = Picture::grey(luminance);
-    let analysis = Progress::unheard(|p| Analysis::of(&picture, &options, p)).unwrap();
+    let analysis = Progress::unheard(|p| Analysis::of(picture.clone(), &options, p)).unwrap();
     analysis.found.unwrap()
 }
 

@@ -94,6 +94,43 @@ fn what_was_kept_is_felt_in_a_free_place_and_is_there_in_any_scene_and_after_a_r
 }
 
 #[test]
+fn a_new_textile_is_felt_beside_two_others_and_kept_only_when_it_is_wanted() {
+    let folder = ScratchFolder::new("listen");
+    let mut window = window(&folder);
+    let before = window.workbench.bench.document.scene().clone();
+    let heard = |window: &Headless| -> Vec<String> {
+        let placed = &window.workbench.bench.engine_scene.loaded.scene().textiles;
+        placed.iter().map(|one| one.id.clone()).collect()
+    };
+    let own_scene = heard(&window);
+    let textiles = new_textile("Mine", 1);
+    let listen = LibraryCommand::Listen(Arc::clone(&textiles), Pane::Lab);
+    do_now(&mut window, listen.clone());
+    assert_eq!(heard(&window), vec!["mine"; 4]);
+    let listening = window.workbench.bench.library.acts.listening.as_ref();
+    let listening = listening.unwrap();
+    let [low, high] = listening.new.as_ref().unwrap().1;
+    assert!(low > 0.0 && high > 0.0, "its levels: {low} and {high} µm");
+    let references = listening.references.clone().map(Option::unwrap);
+    assert_ne!(references[0], references[1]);
+    do_now(&mut window, LibraryCommand::Feel(2));
+    assert_eq!(heard(&window), vec![references[1].clone(); 4]);
+    let other = LibraryCommand::CompareWith(0, "denim".to_owned());
+    do_now(&mut window, other);
+    assert_eq!(heard(&window), vec!["denim"; 4]);
+    do_now(&mut window, LibraryCommand::Feel(0));
+    assert_eq!(heard(&window), vec!["mine"; 4], "and back");
+    assert_eq!(*window.workbench.bench.document.scene(), before);
+    do_now(&mut window, Command::Dismiss);
+    assert_eq!(heard(&window), own_scene, "Esc keeps nothing");
+    assert!(own(&window).is_empty());
+    do_now(&mut window, listen);
+    do_now(&mut window, Keep::of(textiles, false));
+    assert_eq!(heard(&window), own_scene);
+    assert_eq!(own(&window), ["Mine"]);
+}
+
+#[test]
 fn an_equal_name_asks_and_both_can_be_kept_or_the_old_one_replaced_and_had_back() {
     let folder = ScratchFolder::new("taken");
     let mut window = window(&folder);

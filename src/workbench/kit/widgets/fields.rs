@@ -78,6 +78,15 @@ pub(crate) fn note(ui: &mut Ui, words: &str, tone: Tone) {
     }
 }
 
+/// The same where there is something to say; what follows keeps its identity, and so the focus,
+/// whether there is or not.
+pub(crate) fn note_if(ui: &mut Ui, words: Option<&str>, tone: Tone) {
+    match words {
+        Some(words) => note(ui, words, tone),
+        None => ui.skip_ahead_auto_ids(1),
+    }
+}
+
 /// A line of a form: its parts a step apart, from left to right.
 pub(crate) fn form_line<R>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> R) -> InnerResponse<R> {
     line(ui, LINE, |ui| {

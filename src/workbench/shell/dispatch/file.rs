@@ -131,7 +131,10 @@ impl Workbench {
     }
 
     fn save_scene(&mut self, path: &Path) {
-        let contents = self.bench.engine_scene.loaded.contents();
+        let mut contents = self.bench.engine_scene.loaded.contents();
+        // What is only listened to is no part of it.
+        let placed = &self.bench.document.scene().textiles;
+        contents.retain(|id, _| placed.iter().any(|one| one.id == *id));
         match self.bench.document.save_as(path, contents) {
             Ok(()) => {
                 self.shell.ask = None;

@@ -6,6 +6,8 @@ use crate::bench::Bench;
 use crate::bench::background::finished;
 use crate::bench::keep::{Keep, NewTextile};
 use crate::bench::latest::Standing;
+use crate::bench::library_acts::LibraryCommand;
+use crate::bench::pane::Pane;
 use crate::tools::import::Import;
 use crate::tools::import::draft::WordsDraft;
 use crate::tools::import::failure::{Failure, Step};
@@ -86,8 +88,8 @@ impl Import {
 }
 
 impl Import {
-    /// Begins to make the textiles and keeps them.
-    pub(crate) fn keep(&mut self, bench: &mut Bench, is_felt: bool) {
+    /// Begins to make the textiles, lets them be listened to, to keep them then.
+    pub(crate) fn keep(&mut self, bench: &mut Bench) {
         if let Some(line) = self.refusal() {
             self.kept = Some(Err(Failure::at(Step::Keep, line)));
             return;
@@ -97,7 +99,7 @@ impl Import {
         };
         self.kept = None;
         let said = self.draft.words.clone();
-        let make = move |_: &mut Progress<'_>| Ok((textiles(&found, &said), is_felt));
+        let make = move |_: &mut Progress<'_>| Ok(textiles(&found, &said));
         self.keeping = Some(bench.executor.start("selvedge-import-keep", make));
         self.poll_keeping(bench);
     }
@@ -108,14 +110,23 @@ impl Import {
         let Some(outcome) = finished(&mut self.keeping) else {
             return;
         };
-        let (made, is_felt) = outcome.unwrap_or_else(|line| (failed(line), false));
-        self.kept = Some(made.map(|made| {
+        match outcome.unwrap_or_else(failed) {
+            Ok(made) => {
+                let made = Arc::new(made);
+                self.offered = Some(Arc::clone(&made));
+                let listen = LibraryCommand::Listen(made, Pane::Import);
+                bench.commands.push(listen.into());
+            }
+            Err(failure) => self.kept = Some(Err(failure)),
+        }
+    }
+
+    /// Notes that textiles are kept, if they are those that were offered last.
+    pub(super) fn note_kept(&mut self, keep: &Keep) {
+        let is_offered = |made: &mut Arc<_>| Arc::ptr_eq(made, &keep.textiles);
+        if let Some(made) = self.offered.take_if(is_offered) {
             let names: Vec<&str> = made.iter().map(|textile| textile.id.as_str()).collect();
-            let names = names.join(", ");
-            bench
-                .commands
-                .push(Keep::of(Arc::new(made), is_felt).into());
-            names
-        }));
+            self.kept = Some(Ok(names.join(", ")));
+        }
     }
 }

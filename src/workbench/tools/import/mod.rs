@@ -30,6 +30,7 @@ use eframe::egui::Ui;
 use crate::bench::Bench;
 use crate::bench::command::{Command, FileCommand, Purpose};
 use crate::bench::export::Exported;
+use crate::bench::library_acts::LibraryCommand;
 use crate::bench::pane::Pane;
 use crate::bench::recovery::Unsaved;
 use crate::bench::tool::{PaneContext, Tool};
@@ -51,8 +52,12 @@ impl Tool for Import {
     }
 
     fn command(&mut self, command: &Command, bench: &mut Bench) {
-        if let Command::File(FileCommand::Use(Purpose::ImportFiles, path)) = command {
-            self.take_file(path, bench);
+        match command {
+            Command::File(FileCommand::Use(Purpose::ImportFiles, path)) => {
+                self.take_file(path, bench);
+            }
+            Command::Library(LibraryCommand::Keep(keep)) => self.note_kept(keep),
+            _ => {}
         }
     }
 

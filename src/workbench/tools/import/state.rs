@@ -8,7 +8,7 @@ use eframe::egui;
 use crate::bench::Bench;
 use crate::bench::background::{Executor, Task};
 use crate::bench::command::ShowCommand;
-use crate::bench::keep::NewTextile;
+use crate::bench::keep::{NewTextile, NewTextiles};
 use crate::bench::latest::{Latest, Standing};
 use crate::bench::pane::Pane;
 use crate::kit::widgets::relief::ReliefPicture;
@@ -19,8 +19,8 @@ use crate::tools::import::work::{Found, Inputs};
 /// More files than these are no import.
 const MOST_FILES: usize = 8;
 
-/// Textiles that were made for the library, and whether they are to be felt.
-type Made = (Result<Vec<NewTextile>, Failure>, bool);
+/// Textiles that were made for the library.
+type Made = Result<Vec<NewTextile>, Failure>;
 
 /// An import: what is wanted of it and what was found.
 #[derive(Default)]
@@ -31,6 +31,8 @@ pub(crate) struct Import {
     pub picture: ReliefPicture,
     pub(super) reading: Latest<Inputs, Found>,
     pub(super) keeping: Option<Task<Made>>,
+    /// Textiles that are listened to, or were.
+    pub(super) offered: Option<NewTextiles>,
     /// What was kept last, or why nothing was.
     pub(super) kept: Option<Result<String, Failure>>,
 }
@@ -123,7 +125,7 @@ impl Import {
     /// Forgets what came of a draft that reads otherwise.
     pub(super) fn forget_after(&mut self, before: &Draft) {
         if before.described != self.draft.described {
-            self.kept = None;
+            (self.kept, self.offered) = (None, None);
         }
     }
 

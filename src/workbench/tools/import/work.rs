@@ -88,6 +88,11 @@ impl Found {
         }
     }
 
+    /// Whether what it holds was read as its words say.
+    pub(crate) fn is_read(&self) -> bool {
+        (self.failure.as_ref()).is_none_or(|failure| failure.step >= Step::Look)
+    }
+
     /// The strokes, if these are strokes.
     pub(crate) fn strokes(&self) -> Option<&Strokes> {
         match &self.body {
@@ -173,10 +178,11 @@ pub(crate) fn read(
     let content = first.and_then(|file| file.source.bytes().ok());
     let kind = inputs.described.kind;
     let kind = kind.unwrap_or_else(|| Measurement::of(content.unwrap_or_default()));
-    let prior = prior.filter(|prior| prior.inputs.described == inputs.described);
+    let is_same = |of: &&Found| of.is_read() && of.inputs.described == inputs.described;
+    let again = prior.filter(is_same);
     match kind {
-        Measurement::Strokes => strokes(inputs, prior, progress),
-        Measurement::Heights => heights(inputs, prior, progress),
+        Measurement::Strokes => strokes(inputs, again, progress),
+        Measurement::Heights => heights(inputs, (again, prior), progress),
     }
 }
 
@@ -302,9 +308,10 @@ impl Strokes {
     }
 }
 
+/// `again` is what was read of the same words, `prior` of whatever words before.
 fn heights(
     inputs: Inputs,
-    prior: Option<&Found>,
+    (again, prior): (Option<&Found>, Option<&Found>),
     progress: &mut Progress<'_>,
 ) -> Result<Found, Cancelled> {
     let kind = Measurement::Heights;
@@ -312,11 +319,22 @@ fn heights(
         let line = "one file of heights makes an import; leave the others out";
         return Ok(Found::failed(inputs, kind, Failure::at(Step::Files, line)));
     }
-    let mut heights = match prior.and_then(Found::heights) {
+    let mut heights = match again.and_then(Found::heights) {
         Some(heights) => heights.clone(),
         None => match read_heights(&inputs.described, progress)? {
             Ok(heights) => heights,
-            Err(failure) => return Ok(Found::failed(inputs, kind, failure)),
+            Err(failure) => {
+                // What the same file held before stays in sight while something is being typed.
+                let files = &inputs.described.files;
+                let is_same =
+                    |prior: &&Found| prior.kind == kind && prior.inputs.described.files == *files;
+                let last = prior.filter(is_same);
+                let body = last.map_or(Body::Nothing, |last| last.body.clone());
+                return Ok(Found {
+                    body,
+                    ..Found::failed(inputs, kind, failure)
+                });
+            }
         },
     };
     let said: Vec<Option<[f64; 2]>> = match &inputs.looked.places[..] {

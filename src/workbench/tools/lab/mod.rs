@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! parameter ─▶ Steps (drafts, read as a file would be) ─▶ Task: Preview
-//!          ─▶ Task: files of a textile ─▶ Command::Keep
+//!          ─▶ Task: files of a textile ─▶ LibraryCommand::Listen, then Keep
 //! ```
 //!
 //! Nothing is computed for a hidden pane. While one preview is computed the parameters may change:
@@ -29,6 +29,7 @@ use crate::bench::command::{Command, ShowCommand};
 use crate::bench::export::Exported;
 use crate::bench::export::origin::Origin;
 use crate::bench::history::StepList;
+use crate::bench::library_acts::LibraryCommand;
 use crate::bench::pane::Pane;
 use crate::bench::recovery::Unsaved;
 use crate::bench::tool::{PaneContext, Tool};
@@ -52,9 +53,13 @@ impl Tool for Lab {
     }
 
     fn command(&mut self, command: &Command, bench: &mut Bench) {
-        if let Command::Lab(beginning) = command {
-            bench.commands.push(ShowCommand::Reveal(Pane::Lab).into());
-            self.begin_with(bench, beginning.clone());
+        match command {
+            Command::Lab(beginning) => {
+                bench.commands.push(ShowCommand::Reveal(Pane::Lab).into());
+                self.begin_with(bench, beginning.clone());
+            }
+            Command::Library(LibraryCommand::Keep(keep)) => self.note_kept(keep),
+            _ => {}
         }
     }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::bench::background::Task;
-use crate::bench::keep::Keep;
+use crate::bench::keep::NewTextiles;
 use crate::bench::latest::{Latest, Standing};
 use crate::tools::lab::family::{Family, FamilyFields};
 use crate::tools::lab::fields::KeepFields;
@@ -93,7 +93,9 @@ pub(crate) struct Lab {
     pub(crate) beginning: Option<Task<Begun>>,
     pub(crate) comparing: Option<Task<Compared>>,
     pub(crate) trying: Option<Task<Family>>,
-    pub(crate) keeping: Option<Task<Keep>>,
+    pub(crate) keeping: Option<Task<NewTextiles>>,
+    /// Textiles that are listened to, or were, and the draft that they were made of.
+    pub(crate) offered: Option<(NewTextiles, Option<Draft>)>,
 }
 
 impl Lab {

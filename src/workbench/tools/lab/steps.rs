@@ -43,7 +43,7 @@ pub(crate) struct Work {
 #[derive(Debug, Clone)]
 pub(crate) struct Steps {
     /// The draft that was kept last as a textile.
-    kept: Option<Draft>,
+    pub(super) kept: Option<Draft>,
     pub(crate) recipe: Recipe,
     history: History<Recipe, Target>,
     pub(crate) read: Result<Manifest, Fault>,
@@ -73,11 +73,6 @@ impl Steps {
             recipe,
             history: History::default(),
         }
-    }
-
-    /// The recipe as it is becomes a textile.
-    pub(crate) fn keep(&mut self) {
-        self.kept = Some(self.recipe.draft.clone());
     }
 
     /// A recipe that was changed and not kept, with every step.

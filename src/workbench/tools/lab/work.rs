@@ -9,7 +9,9 @@ use crate::bench::Bench;
 use crate::bench::background::{Executor, Task, finished};
 use crate::bench::command::lab::Beginning;
 use crate::bench::history::Moment;
-use crate::bench::keep::{Keep, NewTextile};
+use crate::bench::keep::{Keep, NewTextile, NewTextiles};
+use crate::bench::library_acts::LibraryCommand;
+use crate::bench::pane::Pane;
 use crate::tools::lab::family::{Family, Plan};
 use crate::tools::lab::fields::KeepFields;
 use crate::tools::lab::preview::Compared;
@@ -85,31 +87,29 @@ impl Lab {
         self.trying = Some(bench.executor.start("selvedge-lab-family", work));
     }
 
-    /// Keeps the recipe as a textile, and lays it under the display if it is to be felt.
-    pub(crate) fn keep(&mut self, bench: &mut Bench, feels: bool) {
+    /// Lets the recipe be listened to as a textile, to keep it then.
+    pub(crate) fn keep(&mut self, bench: &mut Bench) {
         let recipe = self.to_keep();
-        self.keep_recipes(bench, recipe.map(|one| vec![one]), feels);
+        self.keep_recipes(bench, recipe.map(|one| vec![one]));
     }
 
-    /// Keeps every textile of the family that was tried.
+    /// The same of every textile of the family that was tried.
     pub(crate) fn keep_family(&mut self, bench: &mut Bench) {
         let recipes = self.family_to_keep();
-        self.keep_recipes(bench, recipes, false);
+        self.keep_recipes(bench, recipes);
     }
 
     fn keep_recipes(
         &mut self,
         bench: &mut Bench,
         recipes: Result<Vec<(String, Manifest)>, String>,
-        feels: bool,
     ) {
         match recipes {
             Err(words) => self.refusal = Some(words),
             Ok(recipes) => {
                 self.refusal = None;
-                let work = move |progress: &mut Progress<'_>| {
-                    Ok(Keep::of(Arc::new(built(&recipes, progress)?), feels))
-                };
+                let work =
+                    move |progress: &mut Progress<'_>| Ok(Arc::new(built(&recipes, progress)?));
                 self.keeping = Some(bench.executor.start("selvedge-lab-keep", work));
                 self.poll_keeping(bench);
             }
@@ -119,14 +119,24 @@ impl Lab {
     /// Takes what was built to be kept, whether the lab is in sight or not.
     pub(crate) fn poll_keeping(&mut self, bench: &mut Bench) {
         match finished(&mut self.keeping) {
-            Some(Ok(keep)) => {
-                if let Some(steps) = &mut self.steps {
-                    steps.keep();
-                }
-                bench.commands.push(keep.into());
+            Some(Ok(made)) => {
+                let draft = self.steps.as_ref().map(|steps| steps.recipe.draft.clone());
+                self.offered = Some((Arc::clone(&made), draft));
+                bench
+                    .commands
+                    .push(LibraryCommand::Listen(made, Pane::Lab).into());
             }
             Some(Err(words)) => self.refusal = Some(format!("Nothing was kept: {words}")),
             None => {}
+        }
+    }
+
+    /// Notes that textiles are kept, if they are those that were offered last.
+    pub(super) fn note_kept(&mut self, keep: &Keep) {
+        let is_offered = |(made, _): &mut (NewTextiles, _)| Arc::ptr_eq(made, &keep.textiles);
+        let offered = self.offered.take_if(is_offered);
+        if let (Some((_, draft)), Some(steps)) = (offered, &mut self.steps) {
+            steps.kept = draft;
         }
     }
 

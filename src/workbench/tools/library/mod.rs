@@ -45,7 +45,8 @@ impl Tool for Library {
     }
 
     fn is_open(&self, bench: &Bench) -> bool {
-        self.renaming.is_some() || bench.library.acts.taken.is_some()
+        let acts = &bench.library.acts;
+        self.renaming.is_some() || acts.taken.is_some() || acts.listening.is_some()
     }
 
     /// While the last thing that was done was done with a library: the scene's list is here too.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bench::source_file::SourceFile;
 use selvedge_textile::picture::shading::{Light, Method};
-use selvedge_textile::picture::{Lattice, PictureScale};
+use selvedge_textile::picture::{Lattice, PictureScale, ReliefOf};
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{HeightScale, id_of};
 
@@ -62,13 +62,16 @@ pub(crate) struct Draft {
     pub ruler: Option<[[f64; 2]; 2]>,
     /// λ of the mean concentration, 1/px; `None`: from the maxima.
     pub lambda: Option<f64>,
+    /// The lattice's vectors if they were drawn or chosen, px; `None`: those that are found.
+    #[serde(default)]
+    pub lattice: Option<[[f64; 2]; 2]>,
     /// Whether the light is estimated.
     pub(crate) is_light_estimated: bool,
     /// The light if it is not.
     pub light: Light,
-    /// Whether heights are found on the mean cell, not on the picture as it is.
+    /// What heights are found on and felt.
     #[serde(default)]
-    pub is_cell: bool,
+    pub relief_of: ReliefOf,
     /// How heights are found; `None`: by what the picture speaks for.
     pub method: Option<Method>,
     /// The height as typed, µm.
@@ -91,13 +94,14 @@ impl Default for Draft {
             unit: ScaleUnit::Dpi,
             ruler: None,
             lambda: None,
+            lattice: None,
             is_light_estimated: false,
             // A scanner's lamp shines along the way of its carriage.
             light: Light {
                 slant_deg: 45.0,
                 tilt_deg: 90.0,
             },
-            is_cell: false,
+            relief_of: ReliefOf::Picture,
             method: None,
             height: String::new(),
             known: Known::Relief,
@@ -146,9 +150,7 @@ impl Draft {
 
     /// The scale, px/mm, as far as it needs no threads, or with those of this lattice.
     pub(crate) fn px_per_mm(&self, lattice: Option<&Lattice>) -> Option<f64> {
-        let scale = self.picture_scale()?;
-        let counted = || scale.px_per_mm(lattice?).ok();
-        scale.stated_px_per_mm().or_else(counted)
+        self.picture_scale()?.px_per_mm(lattice).ok()
     }
 
     /// What is known of the height; `None` while it is no positive number.
@@ -220,24 +222,29 @@ impl Draft {
 
     /// Whether the tiles are the same.
     pub(crate) fn has_same_tile(&self, other: &Self) -> bool {
-        self.has_same_part(other) && self.lambda == other.lambda
+        self.has_same_part(other) && (self.lambda, self.lattice) == (other.lambda, other.lattice)
+    }
+
+    fn is_cell(&self) -> bool {
+        self.relief_of == ReliefOf::Cell
     }
 
     /// Whether the heights in pixels are the same.
     pub(crate) fn has_same_shape(&self, other: &Self) -> bool {
         let light = |draft: &Self| (!draft.is_light_estimated).then_some(draft.light);
         self.has_same_tile(other)
-            && self.picture_scale() == other.picture_scale()
+            && (!self.is_cell() || self.picture_scale() == other.picture_scale())
             && self.is_light_estimated == other.is_light_estimated
             && light(self) == light(other)
-            && (self.is_cell, self.method) == (other.is_cell, other.method)
+            && (self.is_cell(), self.method) == (other.is_cell(), other.method)
     }
 
     /// Whether the textiles are the same.
     pub(crate) fn has_same_textile(&self, other: &Self) -> bool {
         self.has_same_shape(other)
+            && self.picture_scale() == other.picture_scale()
             && self.height_scale() == other.height_scale()
-            && self.representation == other.representation
+            && (self.relief_of, self.representation) == (other.relief_of, other.representation)
             && self.final_name() == other.final_name()
     }
 }

@@ -59,7 +59,7 @@ pub(crate) fn direction_chart(directions: &Directions) -> Chart {
     let [first, second] = shares;
     Chart {
         x: Axis::linear("direction, degrees clockwise from x").within([0.0, 180.0]),
-        y: Axis::linear("share of the highest").within([0.0, 1.05]),
+        y: Axis::linear("share of the highest").within([0.0, 1.1]),
         series,
         columns: Columns::default()
             .with("direction_deg", angles)

@@ -55,10 +55,14 @@ pub(crate) struct Cloth {
     pub maxima: Vec<([f64; 2], f64)>,
     /// Directions by both measures.
     pub directions: Option<Directions>,
+    /// The lattice that is found by itself, and those next to it.
+    pub(crate) offered: [Vec<Lattice>; 2],
     /// Lattice and tile; why there are none, in a sentence.
     pub found: Result<Box<Tiled>, String>,
     /// The lattice on the picture, cloth of the tile, what that leaves.
     pub images: Option<[Image; 3]>,
+    /// Pixels of the picture along the images.
+    pub(crate) shown_px: f64,
 }
 
 /// A textile, ready to be kept.
@@ -95,6 +99,8 @@ pub(crate) struct Found {
     pub made: Option<Arc<Made>>,
     /// What is wrong, where.
     pub failure: Option<(Step, String)>,
+    /// Whether stages are still to come.
+    pub(crate) is_partial: bool,
 }
 
 impl Found {

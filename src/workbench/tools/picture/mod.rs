@@ -25,6 +25,7 @@ use eframe::egui::Ui;
 use crate::bench::Bench;
 use crate::bench::command::{Command, FileCommand, Purpose, ShowCommand};
 use crate::bench::export::Exported;
+use crate::bench::library_acts::LibraryCommand;
 use crate::bench::pane::Pane;
 use crate::bench::recovery::Unsaved;
 use crate::bench::tool::{PaneContext, Tool};
@@ -45,11 +46,14 @@ impl Tool for Picture {
     }
 
     fn command(&mut self, command: &Command, bench: &mut Bench) {
-        if let Command::File(FileCommand::Use(Purpose::OpenPicture(Pane::Picture), path)) = command
-        {
-            self.open(path.clone());
-            let reveal = ShowCommand::Reveal(Pane::Picture);
-            bench.commands.push(reveal.into());
+        match command {
+            Command::File(FileCommand::Use(Purpose::OpenPicture(Pane::Picture), path)) => {
+                self.open(path.clone());
+                let reveal = ShowCommand::Reveal(Pane::Picture);
+                bench.commands.push(reveal.into());
+            }
+            Command::Library(LibraryCommand::Keep(keep)) => self.note_kept(keep),
+            _ => {}
         }
     }
 

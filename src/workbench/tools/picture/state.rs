@@ -9,6 +9,8 @@ use crate::bench::background::Executor;
 use crate::bench::command::Commands;
 use crate::bench::keep::Keep;
 use crate::bench::latest::{Latest, Standing};
+use crate::bench::library_acts::LibraryCommand;
+use crate::bench::pane::Pane;
 use crate::tools::picture::draft::{Draft, Part};
 use crate::tools::picture::found::Found;
 use crate::tools::picture::textures::Textures;
@@ -18,6 +20,8 @@ use crate::tools::picture::textures::Textures;
 pub(crate) struct Picture {
     /// What was chosen and typed.
     pub draft: Draft,
+    /// The lattice's vectors while one is being dragged, px.
+    pub(crate) dragged: Option<[[f64; 2]; 2]>,
     /// The stages as textures.
     pub(crate) textures: Textures,
     work: Latest<Draft, Found>,
@@ -61,13 +65,6 @@ impl Picture {
         if let Some((step, _)) = &found.failure {
             return Some(format!("Step {} has something to mend", *step as u8));
         }
-        if found
-            .cloth
-            .as_ref()
-            .is_some_and(|cloth| cloth.found.is_err())
-        {
-            return Some("There is no lattice; step 4 says why".to_owned());
-        }
         if found.made.is_none() {
             return self.draft.missing().map(str::to_owned);
         }
@@ -81,6 +78,7 @@ impl Picture {
             part: Part::Whole,
             ruler: None,
             lambda: None,
+            lattice: None,
             name: String::new(),
             ..self.draft.clone()
         };
@@ -125,14 +123,21 @@ impl Picture {
         };
     }
 
-    /// Keeps the textile of what is chosen now in the library; it may be felt at once.
-    pub(crate) fn keep(&mut self, is_felt: bool, commands: &mut Commands) {
-        let made = self.found().and_then(|found| found.made.clone());
-        let Some(made) = made.filter(|_| self.refusal().is_none()) else {
-            return;
-        };
-        self.kept = made.textile.first().map(|textile| textile.id.clone());
-        commands.push(Keep::of(Arc::clone(&made.textile), is_felt).into());
+    /// Lets the textile of what is chosen now be listened to, to keep it then.
+    pub(crate) fn keep(&self, commands: &mut Commands) {
+        let made = self.found().and_then(|found| found.made.as_ref());
+        if let Some(made) = made.filter(|_| self.refusal().is_none()) {
+            let textiles = Arc::clone(&made.textile);
+            commands.push(LibraryCommand::Listen(textiles, Pane::Picture).into());
+        }
+    }
+
+    /// Notes that textiles are kept, if they are those of what is chosen now.
+    pub(super) fn note_kept(&mut self, keep: &Keep) {
+        let made = self.found().and_then(|found| found.made.as_ref());
+        if made.is_some_and(|made| Arc::ptr_eq(&made.textile, &keep.textiles)) {
+            self.kept = keep.textiles.first().map(|textile| textile.id.clone());
+        }
     }
 
     /// Takes what a thread has made, if it is done.

@@ -1,7 +1,6 @@
 //! The stages from a picture to a textile, on a thread. What was made before of the same words is
 //! used again, so that whoever changes a parameter waits for the later stages only.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use crate::bench::keep::NewTextile;
@@ -12,18 +11,17 @@ use crate::tools::picture::draft::{Draft, Part};
 use crate::tools::picture::found::{Cloth, Correlated, Found, Loaded, Made, Step};
 use crate::tools::picture::images;
 use selvedge_foundation::files::sha256_hex;
-use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::numerics::{Grid, extent};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_textile::picture::brightness::Brightness;
-use selvedge_textile::picture::shading::{ShadingError, ShadingOptions, Shape};
+use selvedge_textile::picture::shading::{ShadingError, ShadingOptions};
 use selvedge_textile::picture::{
-    Autocorrelation, DirectionOptions, Directions, EvenLight, Found as Tiled, Lattice, Maxima,
-    Picture, PictureError, Relief, SignificantMaxima, even_light,
+    Autocorrelation, Basis, DirectionOptions, Directions, EvenLight, Found as Tiled, Lattice,
+    Maxima, Picture, PictureError, Relief, ReliefOf, SignificantMaxima, even_light,
 };
-use selvedge_textile::surface::{Direction, HeightMap, ProfileSet};
+use selvedge_textile::surface::Direction;
 use selvedge_textile::{
-    Construction, Ensemble, Lamp, Manifest, PictureTextile, Source, TextileError, Uncertainty,
-    n_threads, smd_um,
+    Construction, Ensemble, Lamp, PictureTextile, TextileError, Uncertainty, n_threads, smd_um,
 };
 
 /// Why a run ended early.
@@ -54,13 +52,17 @@ impl Computed<Draft> for Found {
         Self::failed(inputs.clone(), Step::Picture, line)
     }
 
+    fn is_whole(&self) -> bool {
+        !self.is_partial
+    }
+
     /// What was made so far of a file is kept only when the run ends.
     fn serves(under_way: &Draft, now: &Draft) -> bool {
         under_way.source == now.source
     }
 }
 
-/// Runs the stages that are not known from `prior`.
+/// Runs the stages that are not known from `prior`, as far as there is something to show.
 pub(crate) fn read(
     inputs: Draft,
     prior: Option<&Found>,
@@ -85,6 +87,7 @@ fn known<T>(
     stage(prior).clone()
 }
 
+/// The photograph is shown before it is correlated, its lattice before heights are found.
 fn stages(
     found: &mut Found,
     prior: Option<&Found>,
@@ -97,6 +100,13 @@ fn stages(
         None => Arc::new(loaded(&inputs)?),
     };
     found.loaded = Some(Arc::clone(&loaded));
+    if prior
+        .and_then(|prior| prior.loaded.as_ref())
+        .is_none_or(|of| !Arc::ptr_eq(of, &loaded))
+    {
+        found.is_partial = true;
+        return Ok(());
+    }
     progress.step(0.1, "correlating")?;
     let correlated = match known(prior, |of| of.has_same_part(&inputs), |f| &f.correlated) {
         Some(correlated) => correlated,
@@ -109,17 +119,34 @@ fn stages(
         None => Arc::new(cloth(&inputs, &correlated, progress)?),
     };
     found.cloth = Some(Arc::clone(&cloth));
-    let Ok(tiled) = &cloth.found else {
+    if prior
+        .and_then(|prior| prior.cloth.as_ref())
+        .is_none_or(|of| !Arc::ptr_eq(of, &cloth))
+    {
+        found.is_partial = true;
         return Ok(());
-    };
+    }
+    let of = (&*loaded, &*correlated, &*cloth);
+    felt(found, of, prior, progress)
+}
+
+/// The stages from the lattice on.
+fn felt(
+    found: &mut Found,
+    (loaded, correlated, cloth): (&Loaded, &Correlated, &Cloth),
+    prior: Option<&Found>,
+    progress: &mut Progress<'_>,
+) -> Result<(), End> {
+    let inputs = found.inputs.clone();
+    let tiled = cloth.found.as_deref().ok();
+    let px_per_mm = px_per_mm(&inputs, tiled)?;
     progress.step(0.7, "shape from shading")?;
-    let shaped = match known(
-        prior,
-        |of| of.has_same_shape(&inputs),
-        |found| &found.shaped,
-    ) {
-        Some(shaped) => shaped,
-        None => Arc::new(shaped(&inputs, (&correlated.luminance, tiled), progress)?),
+    let is_same_shape = |of: &Draft| of.has_same_shape(&inputs);
+    let shaped = if let Some(shaped) = known(prior, is_same_shape, |found| &found.shaped) {
+        shaped
+    } else {
+        let ground = (&correlated.luminance, tiled, px_per_mm);
+        Arc::new(shaped(&inputs, ground, progress)?)
     };
     found.shaped = Some(Arc::clone(&shaped));
     progress.step(0.9, "drawing the tester over it")?;
@@ -128,8 +155,8 @@ fn stages(
         found.made = Some(if let Some(made) = known {
             made
         } else {
-            let relief = Relief::clone(&shaped);
-            let make = |p: &mut Progress<'_>| made(&inputs, &loaded, (tiled, relief), p);
+            let of = (tiled, Relief::clone(&shaped), px_per_mm.unwrap_or_default());
+            let make = |p: &mut Progress<'_>| made(&inputs, loaded, of, p);
             Arc::new(progress.within([0.9, 1.0], make)?)
         });
     }
@@ -164,16 +191,8 @@ fn correlated(inputs: &Draft, loaded: &Loaded) -> Result<Correlated, End> {
     } else {
         EvenLight::Off
     };
-    let (luminance, was_evened) = even_light(&picture.luminance, how);
-    let n = luminance.values().len().max(1) as f64;
-    let mean = luminance.values().iter().sum::<f64>() / n;
-    let variance = luminance
-        .values()
-        .iter()
-        .map(|x| (x - mean).powi(2))
-        .sum::<f64>()
-        / n;
-    let looked = Lattice::worth_looking(luminance.width(), luminance.height(), variance);
+    let (luminance, was_evened) = even_light(picture.luminance.clone(), how);
+    let looked = Lattice::worth_looking(&luminance);
     let read = looked.map_err(|reason| reason.to_string()).map(|()| {
         let rho = Autocorrelation::of(&luminance, n_threads());
         let maxima = Maxima::of(&rho);
@@ -200,8 +219,10 @@ fn cloth(
                 correlation: None,
                 maxima: Vec::new(),
                 directions: None,
+                offered: Default::default(),
                 found: Err(reason.clone()),
                 images: None,
+                shown_px: 1.0,
             });
         }
     };
@@ -209,22 +230,33 @@ fn cloth(
         lambda_per_px: inputs.lambda,
     };
     let directions = Directions::of(significant, options);
-    let lattice = Lattice::find(rho, maxima, significant, &directions);
+    let read = (rho, maxima, significant);
+    let by_itself = Lattice::find(rho, maxima, significant, &directions);
+    let others = Lattice::others(read, &directions, by_itself.as_ref().ok());
+    let given = inputs
+        .lattice
+        .map(|[p1, p2]| Lattice::given(read, Basis::new(p1, p2)));
+    let offered = [by_itself.ok().into_iter().collect(), others];
+    let lattice = given.map_or(by_itself, Ok);
     let luminance = &correlated.luminance;
     let found = match lattice {
         Ok(lattice) => {
-            let picture = &correlated.picture;
-            let tiled = Tiled::of(luminance, picture, lattice, n_threads(), progress)?;
+            let colour = correlated.picture.colour.as_ref();
+            let tiled = Tiled::of(luminance, colour, lattice, n_threads(), progress)?;
             Ok(Box::new(tiled))
         }
         Err(reason) => Err(reason.to_string()),
     };
-    let images = found.as_deref().ok().map(|tiled| {
+    let part = found.as_deref().ok().map(|tiled| {
         let corner = tiled.flat_part.map_or([0, 0], |([x, y, ..], _)| [x, y]);
         let part = images::part(tiled.laid(luminance), &tiled.lattice, corner);
-        let [again, rest] = images::synthesized(&part, &tiled.tile, n_threads());
-        [images::with_lattice(&part, &tiled.lattice), again, rest]
+        (tiled, part)
     });
+    let images = part.as_ref().map(|(tiled, part)| {
+        let [again, rest] = images::synthesized(part, &tiled.tile, n_threads());
+        [images::with_lattice(part, &tiled.lattice), again, rest]
+    });
+    let shown_px = part.as_ref().map_or(1.0, |(_, part)| part.width() as f64);
     let lattice = found.as_deref().ok().map(|tiled| &tiled.lattice);
     let mut ranked: Vec<_> = significant.all().to_vec();
     ranked.sort_by(|a, b| b.dominance_px.total_cmp(&a.dominance_px));
@@ -232,23 +264,26 @@ fn cloth(
         correlation: Some(images::correlation(rho, lattice)),
         maxima: ranked.iter().map(|m| (m.place, m.height)).collect(),
         directions: Some(directions),
+        offered,
         images,
+        shown_px,
         found,
     })
 }
 
 fn shaped(
     inputs: &Draft,
-    (luminance, tiled): (&Grid<f64>, &Tiled),
+    (luminance, tiled, px_per_mm): (&Grid<f64>, Option<&Tiled>, Option<f64>),
     progress: &mut Progress<'_>,
 ) -> Result<Relief, End> {
     let failed = |error: ShadingError| match error {
         ShadingError::Cancelled(cancelled) => End::Cancelled(cancelled),
         error => End::Failed(Step::Light, error.to_string()),
     };
-    let whole = (!inputs.is_cell).then_some(luminance);
-    let px_per_mm = px_per_mm(inputs, tiled)?;
-    let brightness = tiled.brightness(whole, px_per_mm, n_threads());
+    let ground = (inputs.relief_of, luminance);
+    let brightness = Brightness::ground(ground, tiled, px_per_mm, n_threads());
+    let no_cell = "there is no lattice and so no mean cell; choose “as scanned”";
+    let brightness = brightness.ok_or_else(|| End::Failed(Step::Light, no_cell.to_owned()))?;
     let light = (!inputs.is_light_estimated).then_some(inputs.light);
     let options = ShadingOptions {
         method: inputs.method.unwrap_or_default(),
@@ -260,7 +295,7 @@ fn shaped(
 fn made(
     inputs: &Draft,
     loaded: &Loaded,
-    (tiled, mut relief): (&Tiled, Relief),
+    (tiled, mut relief, px_per_mm): (Option<&Tiled>, Relief, f64),
     progress: &mut Progress<'_>,
 ) -> Result<Made, End> {
     let failed = |error: TextileError| match error {
@@ -268,7 +303,6 @@ fn made(
         error => End::Failed(Step::Felt, error.to_string()),
     };
     let file = inputs.source.as_ref().map(SourceFile::name);
-    let px_per_mm = px_per_mm(inputs, tiled)?.unwrap_or_default();
     let mut about = PictureTextile {
         name: inputs.final_name(),
         construction: Construction::Other,
@@ -277,57 +311,47 @@ fn made(
         scale: inputs.height_scale().unwrap_or_default(),
         picture: file.map(|name| [name, loaded.sha256.clone()]),
         size_px: Some(relief.brightness.size_px),
+        extent_mm: (inputs.relief_of == ReliefOf::Synthesized).then_some(PictureTextile::EXTENT_MM),
         light_is_estimated: relief.estimate.is_some(),
         representation: inputs.representation,
         ..PictureTextile::default()
     };
     let own = (&mut relief, inputs.method.is_some());
-    let advice = Ensemble::believe(own, &mut about, lamp(inputs), n_threads(), progress);
-    let advice = advice.map_err(failed)?;
+    let believed = Ensemble::believe(own, &mut about, lamp(inputs), n_threads(), progress);
+    let advice = believed.map_err(failed)?;
     let (shape, brightness) = (&relief.shape, &relief.brightness);
-    let files = PictureTextile::files_of(shape, brightness, &tiled.tile, &about).map_err(failed)?;
-    let text = |name: &str| {
-        let file = files.iter().find(|file| file.name == name)?;
-        String::from_utf8(file.bytes.clone()).ok()
+    let tile = tiled.map(|tiled| &tiled.tile);
+    let made = PictureTextile::files_of(shape, brightness, tile, &about).map_err(failed)?;
+    let strokes = Direction::ALL
+        .into_iter()
+        .zip(made.profiles.iter().flatten());
+    let profiles = strokes.map(|(direction, profile)| {
+        let heights_um = profile.heights_um().to_vec();
+        (direction, heights_um, profile.step_mm())
+    });
+    let [low_um, high_um] = extent(made.map.heights_um().values().iter().copied());
+    let uncertainty = Uncertainty {
+        levels: about.levels,
+        ..Uncertainty::default()
     };
-    let manifest = text("textile.toml").unwrap_or_default();
-    let manifest = Manifest::from_toml(&manifest, Path::new("textile.toml")).map_err(failed)?;
-    let relief_um = match &manifest.source {
-        Source::Picture(keys) => keys.relief_um,
-        _ => 0.0,
-    };
-    let (mut profiles, mut strokes) = (Vec::new(), ProfileSet::default());
-    for direction in Direction::ALL {
-        let name = format!("{}.csv", direction.key());
-        if let Some(text) = text(&name) {
-            let profile = selvedge_textile::surface::Profile::read(&text, Path::new(&name))
-                .map_err(failed)?;
-            profiles.push((direction, profile.heights_um().to_vec(), profile.step_mm()));
-            strokes[direction.index()] = Some(profile);
-        }
-    }
-    let map = map_of(shape, brightness, (relief_um, px_per_mm));
-    let map = map.map_err(|error| End::Failed(Step::Felt, error.to_string()))?;
     Ok(Made {
-        relief: Relief3d::of(&map),
-        relief_um,
-        smd_um: smd_um(&strokes),
-        known: [
-            manifest.uncertainty.as_ref().and_then(Uncertainty::words),
-            advice,
-        ],
-        profiles,
+        relief: Relief3d::of(&made.map),
+        relief_um: high_um - low_um,
+        smd_um: smd_um(&made.profiles),
+        known: [uncertainty.words(), advice],
+        profiles: profiles.collect(),
         textile: Arc::new(vec![NewTextile {
             id: inputs.id(),
             name: about.name,
-            files,
+            files: made.files,
         }]),
     })
 }
 
 /// Pixels to a millimetre, if anything is known of it.
-fn px_per_mm(inputs: &Draft, tiled: &Tiled) -> Result<Option<f64>, End> {
-    let scale = inputs.picture_scale().map(|s| s.px_per_mm(&tiled.lattice));
+fn px_per_mm(inputs: &Draft, tiled: Option<&Tiled>) -> Result<Option<f64>, End> {
+    let lattice = tiled.map(|tiled| &tiled.lattice);
+    let scale = inputs.picture_scale().map(|s| s.px_per_mm(lattice));
     let failed = |error: PictureError| End::Failed(Step::Picture, error.to_string());
     scale.transpose().map_err(failed)
 }
@@ -342,20 +366,4 @@ fn lamp(inputs: &Draft) -> Lamp {
             within_deg: Lamp::WITHIN_DEG,
         }
     }
-}
-
-/// The heights as the textile has them.
-fn map_of(
-    shape: &Shape,
-    brightness: &Brightness,
-    (relief_um, px_per_mm): (f64, f64),
-) -> Result<HeightMap, selvedge_textile::surface::SurfaceError> {
-    let [low, high] = shape.range_px();
-    let mut heights_um = shape.height_px.clone();
-    for height in heights_um.values_mut() {
-        *height *= relief_um / (high - low);
-    }
-    let n = [heights_um.width() as f64, heights_um.height() as f64];
-    let step_mm = [0, 1].map(|axis| brightness.size_px[axis] / n[axis] / px_per_mm);
-    HeightMap::new(heights_um, step_mm)
 }

@@ -32,7 +32,7 @@ fn about(scale: HeightScale) -> PictureTextile {
 }
 
 fn made(scale: HeightScale) -> Result<Vec<BuiltFile>, TextileError> {
-    to_textile(&found(), &about(scale))
+    to_textile(&found(), &about(scale), None).map(|made| made.files)
 }
 
 fn manifest_of(files: &[BuiltFile]) -> Manifest {
@@ -143,7 +143,7 @@ fn samples_that_are_not_quite_pixels_keep_the_size_of_the_cloth() {
         size_px: Some([48.6, 47.1]),
         ..about(HeightScale::ReliefUm(100.0))
     };
-    let files = to_textile(&found(), &about).unwrap();
+    let files = to_textile(&found(), &about, None).unwrap().files;
     let keys = source(&manifest_of(&files));
     let map = keys
         .map()
@@ -156,14 +156,15 @@ fn samples_that_are_not_quite_pixels_keep_the_size_of_the_cloth() {
             size_px: Some(size_px),
             ..about.clone()
         };
-        assert!(to_textile(&found(), &about).is_err(), "{size_px:?}");
+        assert!(to_textile(&found(), &about, None).is_err(), "{size_px:?}");
     }
 }
 
 #[test]
 fn another_map_than_the_one_hashed_is_refused() {
     let files = made(HeightScale::ReliefUm(250.0)).unwrap();
-    let other = to_textile(&found(), &about(HeightScale::ReliefUm(80.0))).unwrap();
+    let other = to_textile(&found(), &about(HeightScale::ReliefUm(80.0)), None);
+    let other = other.unwrap().files;
     let mut mixed = with_source(&files, |keys| {
         keys.set_files(ProfileFiles::default(), None);
     });
@@ -214,20 +215,20 @@ fn without_a_scale_no_textile_is_made_and_impossible_ones_are_refused() {
             px_per_mm,
             ..about(HeightScale::ReliefUm(100.0))
         };
-        let error = to_textile(&found(), &about).unwrap_err().to_string();
+        let error = to_textile(&found(), &about, None).unwrap_err().to_string();
         assert!(error.contains("px/mm"), "{error}");
     }
     let flat = shape(&Grid::filled(8, 8, 0.5), light(45.0, 0.0), Method::Linear).unwrap();
-    let error = to_textile(&flat, &about(HeightScale::ReliefUm(100.0))).unwrap_err();
+    let error = to_textile(&flat, &about(HeightScale::ReliefUm(100.0)), None).unwrap_err();
     assert!(error.to_string().contains("flat"), "{error}");
     let row = shape(&Grid::filled(8, 1, 0.5), light(45.0, 0.0), Method::Linear).unwrap();
-    let error = to_textile(&row, &about(HeightScale::ReliefUm(100.0))).unwrap_err();
+    let error = to_textile(&row, &about(HeightScale::ReliefUm(100.0)), None).unwrap_err();
     assert!(error.to_string().contains("2 × 2"), "{error}");
     let nameless = PictureTextile {
         name: " ".to_owned(),
         ..about(HeightScale::ReliefUm(100.0))
     };
-    assert!(to_textile(&found(), &nameless).is_err());
+    assert!(to_textile(&found(), &nameless, None).is_err());
 }
 
 #[test]

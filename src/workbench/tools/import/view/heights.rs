@@ -14,7 +14,7 @@ use selvedge_textile::LengthUnit;
 use selvedge_textile::surface::{Levelling, Representation};
 
 /// Width of a field for a number, points.
-const NUMBER: f32 = 84.0;
+const NUMBER: f32 = 104.0;
 /// Units that are offered.
 const UNITS: [(LengthUnit, &str); 5] = [
     (LengthUnit::Metre, "m"),
@@ -32,8 +32,11 @@ pub(crate) fn show(
     failure: Option<&Failure>,
 ) {
     let heights = found.and_then(Found::heights);
-    if let Some(heights) = heights {
-        show_about(ui, heights);
+    match heights {
+        Some(heights) => {
+            ui.scope(|ui| show_about(ui, heights));
+        }
+        None => ui.skip_ahead_auto_ids(1),
     }
     // A reader of heights names the option that mends it.
     let asks =
@@ -99,7 +102,7 @@ fn show_numbers(
             ("as stated", NUMBER, asks("--range-um")),
         );
     });
-    row(ui, "column", "name or number, of a table", |ui, label| {
+    row(ui, "column", "name or number", |ui, label| {
         text(
             ui,
             label,
@@ -112,7 +115,7 @@ fn show_numbers(
 /// What is done to the heights before the tester is drawn over them.
 fn show_preparation(ui: &mut Ui, typed: &mut HeightsDraft, asks: impl Fn(&str) -> Need) {
     row(ui, "part", "mm: u w to u w", |ui, label| {
-        let part = ("all of it", NUMBER, asks("--crop"));
+        let part = ("all of it", 1.2 * NUMBER, asks("--crop"));
         text(ui, label, &mut typed.crop, part);
     });
     row(ui, "spikes from", "spreads on are missing", |ui, label| {
@@ -121,13 +124,13 @@ fn show_preparation(ui: &mut Ui, typed: &mut HeightsDraft, asks: impl Fn(&str) -
     });
     row(ui, "taken off", "", |ui, _| {
         let usual = if typed.is_periodic {
-            "nothing: a repeat has no tilt"
+            "usual: nothing of a repeat"
         } else {
-            "the plane that fits best"
+            "usual: the best plane"
         };
         let ways = [
             (Levelling::None, "nothing"),
-            (Levelling::Plane, "the plane that fits best"),
+            (Levelling::Plane, "the best plane"),
             (Levelling::Quadratic, "polynomial of 2nd order"),
             (Levelling::Rows, "plane, then rows' medians"),
         ];

@@ -3,6 +3,7 @@
 use eframe::egui::{Response, Ui, vec2};
 
 use crate::bench::Bench;
+use crate::bench::keep::KEEP_TIP;
 use crate::kit::theme::STEP;
 use crate::kit::widgets::fields::{LINE, Need, Tone, choose, note, row_of, step_title, text};
 use crate::kit::widgets::text::{button, line, quiet, toggle};
@@ -15,8 +16,8 @@ use selvedge_textile::{Construction, KnownFigure, Measurement, nth_id};
 const LEAST: f32 = 180.0;
 /// Width of a figure with its unit, points.
 const FIGURE: f32 = 210.0;
-/// Width of both buttons, points.
-const BUTTONS: f32 = 240.0;
+/// Width of the button, points.
+const BUTTONS: f32 = 80.0;
 /// Ways to make a cloth.
 const MADE: [(Construction, &str); 4] = [
     (Construction::Woven, "woven"),
@@ -41,14 +42,8 @@ pub(crate) fn show(ui: &mut Ui, importing: &mut Import, bench: &mut Bench) {
                 &ids_words(importing, found.as_deref()),
             );
         });
-        let (save, feel) = ("Keep", "Keep and feel");
-        let tip = "Write it into your own library, or into the scene’s";
-        if button(ui, save, tip, refusal.as_deref()) {
-            importing.keep(bench, false);
-        }
-        let tip = "Keep it and lay it into the scene where there is room";
-        if button(ui, feel, tip, refusal.as_deref()) {
-            importing.keep(bench, true);
+        if button(ui, "Keep…", KEEP_TIP, refusal.as_deref()) {
+            importing.keep(bench);
         }
     });
     show_outcome(ui, importing, refusal.as_deref());

@@ -14,7 +14,7 @@ use selvedge_textile::{
 };
 
 /// Width of a field for a number, points.
-const NUMBER: f32 = 84.0;
+const NUMBER: f32 = 104.0;
 
 /// Shows the step.
 pub(crate) fn show(

@@ -20,7 +20,7 @@ use crate::bench::tool::PaneContext;
 use crate::kit::pane::{inside, scrolled_column};
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::fields::{Tone, note, step_title};
+use crate::kit::widgets::fields::{Tone, note_if, step_title};
 use crate::tools::import::Import;
 use crate::tools::import::failure::{Failure, Step};
 use crate::tools::import::work::{Body, Found};
@@ -116,9 +116,12 @@ fn failure_of<'a>(importing: &Import, found: Option<&'a Found>) -> Option<&'a Fa
 
 /// The line that says what is wrong at a step, if something is.
 fn show_failure(ui: &mut Ui, failure: Option<&Failure>, step: Step) {
-    if let Some(failure) = failure.filter(|failure| failure.step == step) {
-        note(ui, &failure.line, Tone::Wrong);
-    }
+    let failure = failure.filter(|failure| failure.step == step);
+    note_if(
+        ui,
+        failure.map(|failure| failure.line.as_str()),
+        Tone::Wrong,
+    );
 }
 
 /// What was read, before anything is saved.
@@ -128,7 +131,11 @@ fn show_look(ui: &mut Ui, importing: &mut Import, colours: ColourMap) {
     let state = match standing {
         Standing::Working(share) => format!("reading {:.0} %", 100.0 * share),
         Standing::Stopped => "stopped".to_owned(),
-        Standing::Empty | Standing::Fresh => String::new(),
+        Standing::Empty | Standing::Fresh => {
+            let is_past = |found: &Found| found.heights().is_some() && !found.is_read();
+            let is_past = found.as_deref().is_some_and(is_past);
+            if is_past { "as before" } else { "" }.to_owned()
+        }
     };
     step_title(ui, 3, "Look", &state);
     if matches!(standing, Standing::Working(_))

@@ -70,8 +70,8 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
         complaint(ui, words);
     }
     let no = busy.or(wrong);
-    let tip = "Keep every textile of the family in the same library";
-    if wide_button(ui, &format!("Keep all {n}"), tip, no.as_deref()) {
+    let tip = "Feel the first, then keep every textile of the family in the same library";
+    if wide_button(ui, &format!("Keep all {n}…"), tip, no.as_deref()) {
         lab.keep_family(bench);
     }
 }

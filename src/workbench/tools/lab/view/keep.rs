@@ -3,6 +3,7 @@
 use eframe::egui::Ui;
 
 use crate::bench::Bench;
+use crate::bench::keep::KEEP_TIP;
 use crate::kit::theme::STEP;
 use crate::kit::widgets::text::quiet;
 use crate::tools::lab::fields::KeepFields;
@@ -33,13 +34,8 @@ pub(crate) fn show(ui: &mut Ui, lab: &mut Lab, bench: &mut Bench) {
     }
     let refusal = refusal(lab).or(wrong);
     let refusal = refusal.as_deref();
-    let tip = "Keep it in your own library, or in the scene’s: profiles, picture and recipe";
-    if wide_button(ui, "Keep", tip, refusal) {
-        lab.keep(bench, false);
-    }
-    let tip = "Keep it and lay it into the scene where there is room";
-    if wide_button(ui, "Keep and feel", tip, refusal) {
-        lab.keep(bench, true);
+    if wide_button(ui, "Keep…", KEEP_TIP, refusal) {
+        lab.keep(bench);
     }
 }
 

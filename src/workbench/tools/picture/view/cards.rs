@@ -65,7 +65,7 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture) {
         (whole.height() - GAP * (rows - 1) as f32) / rows as f32,
     );
     let found = picture.found().cloned();
-    let is_past = picture.standing() != Standing::Fresh;
+    let is_fresh = picture.standing() == Standing::Fresh;
     let is_same_file = |found: &&Found| found.inputs.source == picture.draft.source;
     let found = found.as_deref().filter(is_same_file);
     for (card, title) in TITLES.iter().enumerate() {
@@ -77,7 +77,12 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture) {
         let mut child = ui.new_child(UiBuilder::new().max_rect(room).id_salt(title));
         child.set_clip_rect(room.expand(4.0).intersect(ui.clip_rect()));
         // The part is dragged on the picture itself, which is never past.
-        if is_past && card > 0 {
+        let is_past = found.is_some_and(|found| match card {
+            0 => false,
+            1..=5 => !found.inputs.has_same_tile(&picture.draft),
+            _ => !is_fresh,
+        });
+        if is_past {
             child.multiply_opacity(PAST);
         }
         show_card(&mut child, card, picture, found);
@@ -85,13 +90,15 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture) {
 }
 
 fn show_card(ui: &mut Ui, card: usize, picture: &mut Picture, found: Option<&Found>) {
-    let (textures, draft) = (&mut picture.textures, &mut picture.draft);
     let room = ui.max_rect();
     let cloth = found.and_then(|found| found.cloth.as_deref());
+    let waiting = waiting(card, picture, cloth);
+    let (textures, draft) = (&mut picture.textures, &mut picture.draft);
+    let dragged = &mut picture.dragged;
     let images = cloth.and_then(|cloth| cloth.images.as_ref());
     if card == 6 {
         let Some(made) = found.and_then(|found| found.made.as_ref()) else {
-            return nothing(ui, room, waiting(card, cloth));
+            return nothing(ui, room, waiting);
         };
         return show_relief(ui, made, textures);
     }
@@ -118,22 +125,33 @@ fn show_card(ui: &mut Ui, card: usize, picture: &mut Picture, found: Option<&Fou
             .and_then(|cloth| cloth.directions.as_ref())
             .map(|directions| plots::directions(ui, room, directions)),
         3..=5 => images.map(|images| {
-            textures.paint(&painter, room, card, &images[card - 3]);
+            let rect = textures.paint(&painter, room, card, &images[card - 3]);
+            let lattice = found.and_then(Found::lattice).filter(|_| card == 3);
+            if let (Some(lattice), Some(cloth)) = (lattice, cloth) {
+                let found = [lattice.p1_px, lattice.p2_px];
+                let vectors = dragged.unwrap_or(found);
+                let moved = frame::show_vectors(ui, (rect, cloth.shown_px), vectors);
+                *dragged = moved.map(|(vectors, _)| vectors);
+                if moved.is_some_and(|(_, is_let_go)| is_let_go) {
+                    draft.lattice = dragged.take();
+                }
+            }
         }),
         _ => found
             .and_then(|found| found.made.as_deref())
             .map(|made| plots::strokes(ui, room, made)),
     };
     if is_shown.is_none() {
-        nothing(ui, room, waiting(card, cloth));
+        nothing(ui, room, waiting);
     }
 }
 
 /// Why a card is empty.
-fn waiting(card: usize, cloth: Option<&Cloth>) -> &'static str {
+fn waiting(card: usize, picture: &Picture, cloth: Option<&Cloth>) -> &'static str {
     match (card, cloth.map(|cloth| cloth.found.is_ok())) {
-        (3.., Some(false)) => "no lattice",
-        (6.., _) => "needs scale and height",
+        (3..=5, Some(false)) => "no lattice",
+        (6.., _) if picture.draft.missing().is_some() => "needs scale and height",
+        _ if matches!(picture.standing(), Standing::Working(_)) => "being worked out",
         _ => "–",
     }
 }
@@ -158,7 +176,10 @@ fn correlation(
     let palette = Palette::of(painter.ctx().theme());
     let px = rect.width() / (2 * radius + 1) as f32;
     let at = |[x, y]: [f64; 2]| rect.center() + vec2(to_single(x), to_single(y)) * px;
-    for (nth, (place, _)) in cloth.maxima.iter().take(N_MAXIMA).enumerate() {
+    let radius = *radius as f64;
+    let is_seen = |(place, _): &&([f64; 2], f64)| place.iter().all(|px| px.abs() < radius);
+    let seen = cloth.maxima.iter().filter(is_seen).take(N_MAXIMA);
+    for (nth, (place, _)) in seen.enumerate() {
         for place in [*place, place.map(|x| -x)] {
             painter.circle_stroke(at(place), 3.0, Stroke::new(1.0, palette.rim));
             painter.circle_filled(at(place), 2.0, Color32::WHITE);

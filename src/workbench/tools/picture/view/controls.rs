@@ -6,45 +6,35 @@ use std::sync::Arc;
 use eframe::egui::Ui;
 
 use crate::bench::command::{Commands, FileCommand, Purpose};
-use crate::bench::latest::Standing;
 use crate::bench::pane::Pane;
 use crate::bench::source_file::SourceFile;
 use crate::kit::theme::{Palette, STEP};
-use crate::kit::widgets::fields::{Need, Tone, note, row_of, step_title, text};
-use crate::kit::widgets::scale::{Curve, Scale};
+use crate::kit::widgets::fields::{Need, Tone, choose_of, note, note_if, row_of, step_title, text};
+use crate::kit::widgets::scale::Scale;
 use crate::kit::widgets::slider::{RowShape, slider_row_as};
 use crate::kit::widgets::text::{button, paragraph, quiet, toggle, toggles};
 use crate::tools::picture::draft::{Draft, Part, ScaleUnit};
-use crate::tools::picture::found::{Cloth, Found, Step};
+use crate::tools::picture::found::{Found, Step};
 use crate::tools::picture::state::Picture;
-use crate::tools::picture::view::hemisphere;
+use crate::tools::picture::view::{hemisphere, repeats};
 #[cfg(feature = "friction")]
 use selvedge_foundation::numerics::to_single;
-use selvedge_foundation::quantity::{self, with_unit};
+use selvedge_foundation::quantity;
 use selvedge_textile::picture::shading::Method;
-use selvedge_textile::picture::{Directions, Relief};
+use selvedge_textile::picture::{Relief, ReliefOf};
 
 /// Room for the name of a field, points.
 const NAME: f32 = 52.0;
 /// Width of a typed number, points.
-const NUMBER: f32 = 56.0;
+const NUMBER: f32 = 64.0;
 
 /// Shows the steps.
 pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) {
     let found = picture.found().cloned();
     let found = found.as_deref();
-    let standing = picture.standing();
     show_picture(ui, picture, found, commands);
-    if let Standing::Working(share) = standing {
-        ui.horizontal(|ui| {
-            note(ui, &format!("working {:.0} %", 100.0 * share), Tone::Quiet);
-            if button(ui, "Stop", "Stop working it out", None) {
-                picture.cancel();
-            }
-        });
-    }
     let cloth = found.and_then(|found| found.cloth.as_deref());
-    show_repeats(ui, &mut picture.draft, cloth);
+    repeats::show(ui, &mut picture.draft, cloth);
     let shaped = found.and_then(|found| found.shaped.as_deref());
     show_light(ui, &mut picture.draft, shaped);
     show_failure(ui, found, Step::Light);
@@ -52,9 +42,8 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) 
 
 fn show_failure(ui: &mut Ui, found: Option<&Found>, step: Step) {
     let failure = found.and_then(|found| found.failure.as_ref());
-    if let Some((_, line)) = failure.filter(|(at, _)| *at == step) {
-        note(ui, line, Tone::Wrong);
-    }
+    let line = failure.filter(|(at, _)| *at == step);
+    note_if(ui, line.map(|(_, line)| line.as_str()), Tone::Wrong);
 }
 
 fn show_picture(
@@ -187,105 +176,13 @@ fn show_part(ui: &mut Ui, draft: &mut Draft, size: [usize; 2]) {
     });
 }
 
-fn slider(ui: &mut Ui, name: &str, scale: Scale, value: f64) -> Option<f64> {
+pub(super) fn slider(ui: &mut Ui, name: &str, scale: Scale, value: f64) -> Option<f64> {
     let shape = RowShape {
         name: NAME + STEP,
         takes_any: false,
     };
     let ink = Palette::in_ui(ui).line;
     slider_row_as(ui, (name, ink), (shape, scale), value).0
-}
-
-/// Directions, lattice and tile.
-fn show_repeats(ui: &mut Ui, draft: &mut Draft, cloth: Option<&Cloth>) {
-    let directions = cloth.and_then(|cloth| cloth.directions.as_ref());
-    let n = cloth.map_or(0, |cloth| cloth.maxima.len());
-    ui.add_space(STEP);
-    step_title(ui, 2, "Autocorrelation", &format!("{n} maxima count"));
-    if let Some(directions) = directions {
-        show_directions(ui, draft, directions);
-    }
-    match cloth.map(|cloth| &cloth.found) {
-        Some(Ok(tiled)) => {
-            let lattice = &tiled.lattice;
-            let confidence = with_unit(100.0 * lattice.confidence, 0, "%");
-            step_title(ui, 4, "Lattice", &format!("confidence {confidence}"));
-            for (name, vector) in [("p1", lattice.p1_px), ("p2", lattice.p2_px)] {
-                note(
-                    ui,
-                    &vector_words(name, vector, draft.px_per_mm(Some(lattice))),
-                    Tone::Quiet,
-                );
-            }
-            let words = match (lattice.weave_name(), lattice.thread_grid) {
-                (Some(name), _) => name,
-                (None, Some(_)) => "threads cross in a repeat without a name".to_owned(),
-                (None, None) => "no finer grid of threads is seen".to_owned(),
-            };
-            note(ui, &words, Tone::Quiet);
-            let share = tiled
-                .flat_part
-                .map_or(tiled.explained_variance, |(_, share)| share);
-            let share = with_unit(100.0 * share, 0, "%");
-            step_title(ui, 5, "Tile", &format!("explains {share} of the variance"));
-            if let Some(unwarped) = &tiled.unwarped {
-                let words = format!("Laid straight: {}.", unwarped.words());
-                note(ui, &words, Tone::Quiet);
-            }
-            if tiled.flat_part.is_some() {
-                note(
-                    ui,
-                    "Repeats drift: the tile is of the part that lies flattest.",
-                    Tone::Quiet,
-                );
-            }
-            if tiled.colour.is_printed() {
-                let words = "Colour changes with the period: the pattern may be printed, and \
-                             brightness then says nothing about relief.";
-                note(ui, words, Tone::Wrong);
-            }
-        }
-        Some(Err(reason)) => {
-            step_title(ui, 4, "Lattice", "none");
-            note(ui, &format!("No lattice: {reason}."), Tone::Wrong);
-        }
-        None => step_title(ui, 4, "Lattice", ""),
-    }
-}
-
-fn show_directions(ui: &mut Ui, draft: &mut Draft, directions: &Directions) {
-    step_title(
-        ui,
-        3,
-        "Directions",
-        if draft.lambda.is_none() {
-            "λ by the maxima"
-        } else {
-            ""
-        },
-    );
-    let resting = directions.lambda_per_px;
-    let scale = Scale {
-        curve: Curve::Decades(2.4),
-        ..Scale::even([0.02, 5.0], resting, 0.01, (2, "1/px"))
-    };
-    let now = draft.lambda.unwrap_or(directions.lambda_per_px);
-    if let Some(lambda) = slider(ui, "λ", scale, now) {
-        draft.lambda = Some(lambda.max(0.02));
-    }
-    if draft.lambda.is_some() && button(ui, "λ by the maxima", "", None) {
-        draft.lambda = None;
-    }
-}
-
-fn vector_words(name: &str, [x, y]: [f64; 2], px_per_mm: Option<f64>) -> String {
-    let length = x.hypot(y);
-    let [dx, dy, px] = [x, y, length].map(|value| quantity::fixed(value, 2));
-    let mm = px_per_mm.map(|scale| format!(" = {}", with_unit(length / scale, 3, "mm")));
-    format!(
-        "{name} ({dx}, {dy}) px, length {px} px{}",
-        mm.unwrap_or_default()
-    )
 }
 
 fn show_light(ui: &mut Ui, draft: &mut Draft, shaped: Option<&Relief>) {
@@ -342,36 +239,41 @@ fn show_light(ui: &mut Ui, draft: &mut Draft, shaped: Option<&Relief>) {
 fn show_method(ui: &mut Ui, draft: &mut Draft) {
     let choices = [
         (
-            false,
-            "picture",
-            "Heights of the picture as it is, yarn by yarn",
+            ReliefOf::Picture,
+            "as scanned",
+            "The picture as it is, yarn by yarn, over and over",
         ),
         (
-            true,
+            ReliefOf::Synthesized,
+            "synthesized",
+            "Cloth without a visible repetition: the mean cell, and what varies from cell to cell \
+             drawn anew",
+        ),
+        (
+            ReliefOf::Cell,
             "mean cell",
-            "Heights of the cell that repeats: what varies from yarn to yarn is lost",
+            "The cell that repeats: what varies from yarn to yarn is lost",
         ),
     ];
-    row_of(ui, NAME, ("of the", ""), |ui, _| {
-        toggles(ui, &mut draft.is_cell, &choices);
+    row_of(ui, NAME, ("felt", ""), |ui, _| {
+        toggles(ui, &mut draft.relief_of, &choices);
     });
     row_of(ui, NAME, ("method", ""), |ui, _| {
-        let tip = "Of many reliefs, by shading and by dark is deep, the one nearest to what all \
-                   feel like; until the height is typed, shading";
-        let mut choices = vec![(None, "by evidence", tip.to_owned())];
-        choices.extend(Method::ALL.map(|method| {
-            let tip = match method {
-                Method::TsaiShah | Method::Linear => "The historical reference",
-                Method::Variational => "Shape from shading, in full",
-                Method::DarkIsDeep => "Height follows brightness",
+        let methods = Method::ALL.map(|method| {
+            let label = match method {
+                Method::TsaiShah => "Tsai & Shah, historical",
+                Method::Linear => "linear, historical",
+                Method::Variational | Method::DarkIsDeep => method.label(),
             };
-            (Some(method), method.label(), tip.to_owned())
-        }));
-        for (method, label, tip) in choices {
-            if toggle(ui, label, draft.method == method, &tip) {
-                draft.method = method;
-            }
-        }
+            (method, label)
+        });
+        let usual = "by evidence";
+        choose_of(
+            ui,
+            "How heights are found",
+            &mut draft.method,
+            (&methods, usual, Need::Optional),
+        );
     });
 }
 

@@ -50,6 +50,31 @@ pub(crate) fn show_ruler(ui: &Ui, rect: Rect, size: [usize; 2], ends: &mut [[f64
     }
 }
 
+/// Shows the vectors of a lattice from the middle of a picture so many pixels wide, their ends to
+/// be dragged. While one is, where they point to, and whether it was let go.
+pub(crate) fn show_vectors(
+    ui: &Ui,
+    (rect, width_px): (Rect, f64),
+    vectors: [[f64; 2]; 2],
+) -> Option<([[f64; 2]; 2], bool)> {
+    let scale = width_px / f64::from(rect.width());
+    let size = [rect.width(), rect.height()].map(|side| f64::from(side) * scale);
+    let middle = size.map(|side| 0.5 * side);
+    let (mut is_held, mut is_let_go) = (false, false);
+    let ends = [(0, "First"), (1, "Second")].map(|(nth, name)| {
+        let [x, y]: [f64; 2] = vectors[nth];
+        let end = [middle[0] + x, middle[1] + y];
+        line(ui, [middle, end].map(|place| on_screen(rect, size, place)));
+        let label = format!("{name} vector of the lattice");
+        let [x, y] = handle(ui, (rect, size), &label, end);
+        let grip = ui.ctx().read_response(ui.scope_id().with(label.as_str()));
+        is_held |= grip.as_ref().is_some_and(eframe::egui::Response::dragged);
+        is_let_go |= grip.is_some_and(|grip| grip.drag_stopped());
+        [x - middle[0], y - middle[1]]
+    });
+    (is_held || is_let_go).then_some((ends, is_let_go))
+}
+
 /// A region of whole pixels that is not too small and lies inside.
 fn region_of(ends: [f64; 4], size: [f64; 2]) -> [usize; 4] {
     let side = |axis: usize| {

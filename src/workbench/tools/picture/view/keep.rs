@@ -1,9 +1,11 @@
 //! The last step, always in sight: what it is called, and to the fingertip.
 
-use eframe::egui::{Button, Ui, vec2};
+use eframe::egui::Ui;
 
 use crate::bench::command::Commands;
-use crate::kit::theme::{ROW, STEP};
+use crate::bench::keep::KEEP_TIP;
+use crate::bench::latest::Standing;
+use crate::kit::theme::STEP;
 use crate::kit::widgets::fields::{Need, Tone, note, row_of, step_title, text};
 use crate::kit::widgets::text::{button, toggles};
 use crate::tools::picture::draft::{Draft, Known};
@@ -48,22 +50,12 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) 
     });
     let refusal = picture.refusal();
     ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = STEP;
-        let tip = "Keep it and lay it into the scene where there is room";
-        let feel = Button::new("Keep and feel").min_size(vec2(96.0, ROW));
-        let response = ui.add_enabled(refusal.is_none(), feel);
-        let response = match &refusal {
-            Some(why) => response.on_disabled_hover_text(why),
-            None => response.on_hover_text(tip),
-        };
-        if response.clicked() {
-            picture.keep(true, commands);
-        }
-        let save = "Write it into your own library, or into the scene’s";
-        if button(ui, "Keep", save, refusal.as_deref()) {
-            picture.keep(false, commands);
+        if button(ui, "Keep…", KEEP_TIP, refusal.as_deref()) {
+            picture.keep(commands);
         }
     });
+    let is_working = matches!(picture.standing(), Standing::Working(_));
+    let known = known.filter(|_| !is_working);
     for line in known.into_iter().flatten().flatten() {
         note(ui, &line, Tone::Quiet);
     }
@@ -71,10 +63,20 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) 
 }
 
 /// What was kept, or why nothing can be.
-fn show_outcome(ui: &mut Ui, picture: &Picture, refusal: Option<String>) {
+fn show_outcome(ui: &mut Ui, picture: &mut Picture, refusal: Option<String>) {
     let failure = picture.found().and_then(|found| found.failure.clone());
     if let Some((Step::Felt, line)) = failure {
         return note(ui, &line, Tone::Wrong);
+    }
+    if let Standing::Working(share) = picture.standing() {
+        ui.horizontal(|ui| {
+            if button(ui, "Stop", "Stop working it out", None) {
+                picture.cancel();
+            }
+            let words = format!("being worked out: {:.0} %", 100.0 * share);
+            note(ui, &words, Tone::Quiet);
+        });
+        return;
     }
     match (refusal, picture.kept()) {
         (Some(line), _) => note(ui, &line, Tone::Quiet),

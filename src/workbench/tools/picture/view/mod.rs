@@ -9,6 +9,7 @@ pub(crate) mod frame;
 pub(crate) mod hemisphere;
 pub(crate) mod keep;
 pub(crate) mod plots;
+pub(crate) mod repeats;
 
 use eframe::egui::{Ui, vec2};
 
@@ -29,8 +30,8 @@ const KEEP: f32 = 142.0;
 const EMPTY: [&str; 3] = [
     "A scan or a photograph of a cloth, taken straight from above, its threads at least three \
      pixels wide, in light from one side: PNG, JPEG, TIFF or BMP.",
-    "Then type the scale that the scanner was set to and how high the relief is, and press Feel \
-     it. Everything between can be looked at and changed.",
+    "Then type the scale that the scanner was set to and how high the relief is, and press Keep…: \
+     it is felt first. Everything between can be looked at and changed.",
     "Brightness is taken for relief: cloth of one colour gives the best answer.",
 ];
 

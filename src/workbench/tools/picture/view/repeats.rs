@@ -1,0 +1,152 @@
+//! The steps from the autocorrelation to the tile: what repeats, and how sure that is.
+
+use eframe::egui::Ui;
+
+use crate::kit::theme::STEP;
+use crate::kit::widgets::fields::{Tone, note, step_title};
+use crate::kit::widgets::scale::{Curve, Scale};
+use crate::kit::widgets::text::{button, toggle};
+use crate::tools::picture::draft::Draft;
+use crate::tools::picture::found::Cloth;
+use crate::tools::picture::view::controls::slider;
+use selvedge_foundation::quantity::{self, with_unit};
+use selvedge_textile::picture::{Directions, Lattice};
+
+/// Directions, lattice and tile.
+pub(super) fn show(ui: &mut Ui, draft: &mut Draft, cloth: Option<&Cloth>) {
+    let directions = cloth.and_then(|cloth| cloth.directions.as_ref());
+    let n = cloth.map_or(0, |cloth| cloth.maxima.len());
+    ui.add_space(STEP);
+    step_title(ui, 2, "Autocorrelation", &format!("{n} maxima count"));
+    if let Some(directions) = directions {
+        show_directions(ui, draft, directions);
+    }
+    match cloth.map(|cloth| &cloth.found) {
+        Some(Ok(tiled)) => {
+            show_lattice(ui, draft, &tiled.lattice);
+            offered(ui, draft, cloth);
+            let share = tiled
+                .flat_part
+                .map_or(tiled.explained_variance, |(_, share)| share);
+            let share = with_unit(100.0 * share, 0, "%");
+            step_title(ui, 5, "Tile", &format!("explains {share} of the variance"));
+            if let Some(unwarped) = &tiled.unwarped {
+                let words = format!("Laid straight: {}.", unwarped.words());
+                note(ui, &words, Tone::Quiet);
+            }
+            if tiled.flat_part.is_some() {
+                note(
+                    ui,
+                    "Repeats drift: the tile is of the part that lies flattest.",
+                    Tone::Quiet,
+                );
+            }
+            if tiled.colour.is_printed() {
+                let words = "Colour changes with the period: the pattern may be printed, and \
+                             brightness then says nothing about relief.";
+                note(ui, words, Tone::Wrong);
+            }
+        }
+        Some(Err(reason)) => {
+            step_title(ui, 4, "Lattice", "none");
+            note(ui, &format!("No lattice: {reason}."), Tone::Wrong);
+            let words = "Felt as scanned or synthesized all the same.";
+            note(ui, words, Tone::Quiet);
+            offered(ui, draft, cloth);
+        }
+        None => step_title(ui, 4, "Lattice", ""),
+    }
+}
+
+/// What a lattice explains where it was not looked at.
+fn held_out_words(name: &str, lattice: &Lattice) -> String {
+    let share = lattice
+        .held_out
+        .map(|share| with_unit(100.0 * share, 0, "%"));
+    format!("{name} {}", share.unwrap_or_else(|| "–".to_owned()))
+}
+
+/// The vectors, and what weavers call them.
+fn show_lattice(ui: &mut Ui, draft: &Draft, lattice: &Lattice) {
+    let judged = if draft.lattice.is_some() {
+        held_out_words("chosen, explains", lattice)
+    } else {
+        format!(
+            "confidence {}",
+            with_unit(100.0 * lattice.confidence, 0, "%")
+        )
+    };
+    step_title(ui, 4, "Lattice", &judged);
+    for (name, vector) in [("p1", lattice.p1_px), ("p2", lattice.p2_px)] {
+        note(
+            ui,
+            &vector_words(name, vector, draft.px_per_mm(Some(lattice))),
+            Tone::Quiet,
+        );
+    }
+    let words = match (lattice.weave_name(), lattice.thread_grid) {
+        (Some(name), _) => name,
+        (None, Some(_)) => "threads cross in a repeat without a name".to_owned(),
+        (None, None) => "no finer grid of threads is seen".to_owned(),
+    };
+    note(ui, &words, Tone::Quiet);
+}
+
+/// Lattices to choose from, the one that is found first: it takes back what was drawn.
+fn offered(ui: &mut Ui, draft: &mut Draft, cloth: Option<&Cloth>) {
+    let Some([found, others]) = cloth.map(|cloth| &cloth.offered) else {
+        return;
+    };
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        let mut offer = |name: &str, lattice: &Lattice, chosen: Option<[[f64; 2]; 2]>| {
+            let words = held_out_words(name, lattice);
+            let tip = format!("Lattice {words}: what its cells explain of those beside them");
+            if toggle(ui, &words, draft.lattice == chosen, &tip) {
+                draft.lattice = chosen;
+            }
+        };
+        for lattice in found {
+            offer("found", lattice, None);
+        }
+        for lattice in others {
+            let name = format!("{} px", quantity::fixed(lattice.basis().area().sqrt(), 1));
+            offer(&name, lattice, Some([lattice.p1_px, lattice.p2_px]));
+        }
+    });
+}
+
+fn show_directions(ui: &mut Ui, draft: &mut Draft, directions: &Directions) {
+    step_title(
+        ui,
+        3,
+        "Directions",
+        if draft.lambda.is_none() {
+            "λ by the maxima"
+        } else {
+            ""
+        },
+    );
+    let resting = directions.lambda_per_px;
+    let scale = Scale {
+        curve: Curve::Decades(2.4),
+        ..Scale::even([0.02, 5.0], resting, 0.01, (2, "1/px"))
+    };
+    let now = draft.lambda.unwrap_or(directions.lambda_per_px);
+    if let Some(lambda) = slider(ui, "λ", scale, now) {
+        draft.lambda = Some(lambda.max(0.02));
+    }
+    if draft.lambda.is_some() && button(ui, "λ by the maxima", "", None) {
+        draft.lambda = None;
+    }
+}
+
+fn vector_words(name: &str, [x, y]: [f64; 2], px_per_mm: Option<f64>) -> String {
+    let length = x.hypot(y);
+    let [dx, dy, px] = [x, y, length].map(|value| quantity::fixed(value, 2));
+    let mm = px_per_mm.map(|scale| format!(" = {}", with_unit(length / scale, 3, "mm")));
+    format!(
+        "{name} ({dx}, {dy}) px, length {px} px{}",
+        mm.unwrap_or_default()
+    )
+}
