@@ -145,14 +145,13 @@ fn follow(
             "{what}; give a shorter one, or a larger --dt"
         )));
     }
-    let mut mesh = args
-        .mesh
-        .as_deref()
-        .map(|path| MeshOut::new(Some(path)))
-        .transpose()?;
     let mut hands: Vec<Hand> = drape.start_hands();
     path.at(start_s, &mut hands);
     drape.place(&hands);
+    // Before anything is written.
+    drape.holds()?;
+    let mesh = args.mesh.as_deref();
+    let mut mesh = mesh.map(|path| MeshOut::new(Some(path))).transpose()?;
     let [start_j, _] = drape.energy_j();
     let (mut gained_j, mut next_mesh) = (0.0_f64, 0.0);
     let mut forces = ForcesOut::new(args.out.as_deref(), (step_s, start_j))?;

@@ -310,7 +310,7 @@ mod tests {
                 "{tension}"
             );
         }
-        assert!((scene.fabric().max_strains()[1] - 0.04).abs() < 1e-12);
+        assert!((scene.fabric().tension[1].max_strain - 0.04).abs() < 1e-12);
         for (rows, expected) in [
             ("strain_percent\n1\n", "no column warp_gf_per_cm"),
             (

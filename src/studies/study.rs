@@ -49,7 +49,7 @@ pub(crate) const CHAPTERS: [(&str, &[&str]); 9] = [
         ],
     ),
     ("contact", &["stylus", "stylus-limits"]),
-    ("cloth", &["drape", "drape-stability"]),
+    ("cloth", &["drape", "drape-orders", "drape-stability"]),
     ("friction", &["griffin-lim", "friction-pictures"]),
     ("evidence", &["statistics", "mds", "staircases"]),
 ];
