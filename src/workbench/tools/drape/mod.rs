@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! scene, textiles, figures ─▶ Wanted ─┐                     ┌▶ paint (3-D), chart ─▶ view, export
-//! pointer, keys ─▶ grasp ─▶ Lead ─────┴▶ stepper (a thread) ┴▶ motion: the last seconds
+//! pointer, keys ─▶ grasp ─▶ Lead ─────┴▶ stepper (background) ┴▶ motion: the last seconds
 //! ```
 //!
 //! Nothing is stepped before the pane is looked at, nor while everything rests.
@@ -160,7 +160,7 @@ impl Draping {
 
     /// Hangs what a session presents, and afterwards what hung before.
     fn follow_session(&mut self, bench: &Bench) {
-        let hung = bench.hanging().textile().map(|hung| Chosen {
+        let hung = bench.hung().map(|hung| Chosen {
             cloths: vec![ClothChoice {
                 textile: Some(OtherTextile {
                     key: hung.id.clone(),

@@ -1,14 +1,8 @@
-//! Cloths in motion, on a thread of their own: the window asks for some time to pass and goes on;
-//! what came of it is there in a later frame.
+//! Cloths in motion: so much time is asked to pass, and something comes of it.
 //!
-//! One thing is asked for at a time, so that nothing piles up: who cannot keep up runs slower than
-//! life. Reads no clock: the same asks give the same answers.
+//! Reads no clock: the same asks give the same answers.
 
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
-use std::thread;
-
-use eframe::egui;
 
 use crate::tools::drape::hung::{
     Answer, Ask, Base, ClothChoice, ClothFacts, ClothFrame, Facts, Frame, Lead, Sample, Wanted,
@@ -19,66 +13,6 @@ use selvedge_foundation::quantity::with_unit;
 
 /// What of a step counts as one that is still to be taken.
 const SLACK: f64 = 1e-6;
-
-/// Who steps.
-#[derive(Default)]
-pub(crate) enum Stepper {
-    /// Nobody yet.
-    #[default]
-    Idle,
-    /// This thread, so that a picture is the same every time.
-    AtOnce(Box<Hanging>),
-    /// One of its own.
-    Thread(SyncSender<Ask>, Receiver<Answer>),
-}
-
-impl Stepper {
-    /// Begins a thread, or none where time is simulated.
-    ///
-    /// # Errors
-    /// The system gives no thread.
-    pub(crate) fn start(ctx: &egui::Context, is_stepped: bool) -> std::io::Result<Self> {
-        if is_stepped {
-            return Ok(Self::AtOnce(Box::default()));
-        }
-        let (asks, asked) = sync_channel::<Ask>(1);
-        let (answered, answers) = sync_channel(1);
-        let ctx = ctx.clone();
-        let steps = move || {
-            let mut hanging = Hanging::default();
-            while let Ok(ask) = asked.recv() {
-                if answered.send(hanging.answer(&ask)).is_err() {
-                    return;
-                }
-                ctx.request_repaint();
-            }
-        };
-        let name = "selvedge-drape".to_owned();
-        thread::Builder::new().name(name).spawn(steps)?;
-        Ok(Self::Thread(asks, answers))
-    }
-
-    /// Asks for something, while nothing else is asked for; what is done at once is there at once.
-    pub(crate) fn ask(&mut self, ask: Ask) -> Option<Answer> {
-        match self {
-            Self::Idle => None,
-            Self::AtOnce(hanging) => Some(hanging.answer(&ask)),
-            Self::Thread(asks, _) => {
-                // Whoever asks one thing at a time finds room.
-                drop(asks.try_send(ask));
-                None
-            }
-        }
-    }
-
-    /// What has come of it.
-    pub(crate) fn poll(&self) -> Option<Answer> {
-        match self {
-            Self::Thread(_, answers) => answers.try_recv().ok(),
-            _ => None,
-        }
-    }
-}
 
 /// A cloth with what its contactors are given.
 struct Rig {
@@ -108,7 +42,7 @@ pub(crate) struct Hanging {
 }
 
 impl Hanging {
-    fn answer(&mut self, ask: &Ask) -> Answer {
+    pub(crate) fn answer(&mut self, ask: &Ask) -> Answer {
         let is_new = self.wanted.as_ref() != Some(&ask.wanted);
         if is_new {
             let refused = self.hang(&ask.wanted, &ask.lead).err();
