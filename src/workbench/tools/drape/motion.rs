@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use crate::bench::background::{Task, finished};
 use crate::bench::{Bench, FRAME};
-use crate::tools::drape::hung::{Answer, Ask, Facts, Frame, Lead, Sample, Wanted};
+use crate::tools::drape::hung::{Ask, Chosen, Facts, Frame, Lead, Sample};
 use crate::tools::drape::stepper::Hanging;
 use selvedge_foundation::progress::Progress;
 
@@ -26,7 +26,7 @@ const SLOW: f64 = 0.95;
 pub(crate) struct Motion {
     /// All that hangs, while it is not being stepped.
     hanging: Box<Hanging>,
-    stepping: Option<Task<(Box<Hanging>, Answer)>>,
+    stepping: Option<Task<(Box<Hanging>, Vec<Sample>)>>,
     pub(crate) facts: Arc<Facts>,
     /// The last seconds.
     pub(crate) frames: VecDeque<Arc<Frame>>,
@@ -35,7 +35,7 @@ pub(crate) struct Motion {
     /// Those of what came last.
     n_restarted: u64,
     /// What was asked for last, while nothing more comes of it.
-    rests_with: Option<(Arc<Wanted>, Vec<selvedge_drape::Hand>)>,
+    rests_with: Option<(Arc<Chosen>, Vec<selvedge_drape::Hand>)>,
     is_resting: bool,
     pub(crate) is_over: bool,
     pace: Pace,
@@ -59,9 +59,9 @@ impl Motion {
     /// Takes what came.
     pub(crate) fn poll(&mut self) {
         match finished(&mut self.stepping) {
-            Some(Ok((hanging, answer))) => {
+            Some(Ok((hanging, samples))) => {
                 self.hanging = hanging;
-                self.take(answer);
+                self.take(samples);
             }
             // What broke off is lost: it is hung anew.
             Some(Err(why)) => {
@@ -75,7 +75,7 @@ impl Motion {
     }
 
     /// Lets the scene go on by the time since it was last asked to, if anything comes of that.
-    pub(crate) fn follow(&mut self, bench: &Bench, wanted: &Arc<Wanted>, lead: Lead) {
+    pub(crate) fn follow(&mut self, bench: &Bench, wanted: &Arc<Chosen>, lead: Lead) {
         let ctx = &bench.ctx;
         let hands = match &lead {
             Lead::Towards(hands) => hands.clone(),
@@ -101,38 +101,30 @@ impl Motion {
         };
         let mut hanging = std::mem::take(&mut self.hanging);
         let step = move |_: &mut Progress<'_>| {
-            let answer = hanging.answer(&ask);
-            Ok((hanging, answer))
+            let samples = hanging.go_on(&ask);
+            Ok((hanging, samples))
         };
         self.stepping = Some(bench.executor.start("selvedge-drape", step));
     }
 
-    fn take(&mut self, answer: Answer) {
-        let begins_anew = self
-            .frames
-            .back()
-            .is_some_and(|last| answer.frame.t_s < last.t_s);
-        if self.n_restarted != answer.n_restarts || begins_anew {
-            self.n_restarted = answer.n_restarts;
+    fn take(&mut self, samples: Vec<Sample>) {
+        let (hanging, frame) = (&self.hanging, self.hanging.frame());
+        let begins_anew = self.frames.back().is_some_and(|last| frame.t_s < last.t_s);
+        if self.n_restarted != hanging.n_restarts || begins_anew {
+            self.n_restarted = hanging.n_restarts;
             self.frames.clear();
             self.samples.clear();
         }
-        let from_s = answer.frame.t_s - KEPT_S;
-        self.facts = answer.facts;
-        self.is_resting = answer.is_asleep;
-        self.is_over = answer.is_over;
-        self.frames.push_back(answer.frame);
-        self.samples.extend(answer.samples);
-        while self.frames.front().is_some_and(|frame| frame.t_s < from_s) {
-            self.frames.pop_front();
-        }
-        while self
-            .samples
-            .front()
-            .is_some_and(|sample| sample.t_s < from_s)
-        {
-            self.samples.pop_front();
-        }
+        let from_s = frame.t_s - KEPT_S;
+        self.facts = Arc::clone(&hanging.facts);
+        self.is_resting = hanging.is_asleep();
+        self.is_over = hanging.is_over;
+        self.frames.push_back(Arc::new(frame));
+        self.samples.extend(samples);
+        let old = self.frames.partition_point(|frame| frame.t_s < from_s);
+        self.frames.drain(..old);
+        let old = self.samples.partition_point(|sample| sample.t_s < from_s);
+        self.samples.drain(..old);
     }
 
     /// Whether something is still to come.
@@ -151,11 +143,9 @@ impl Motion {
 
     /// How fast it goes beside life, if slower.
     pub(crate) fn slower_than_life(&self) -> Option<f64> {
-        let [passed_s, granted_s] = self
-            .pace
-            .asks
-            .iter()
-            .fold([0.0; 2], |sum, ask| [sum[0] + ask[1], sum[1] + ask[2]]);
+        let asks = self.pace.asks.iter();
+        let [passed_s, granted_s] =
+            asks.fold([0.0; 2], |sum, ask| [sum[0] + ask[1], sum[1] + ask[2]]);
         let share = granted_s / passed_s;
         (passed_s > 0.5 * PACE_S && share < SLOW).then_some(share)
     }

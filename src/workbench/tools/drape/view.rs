@@ -175,12 +175,8 @@ fn show_view(
 }
 
 fn dress<'a>(ui: &Ui, nth: usize, draping: &Draping, context: &mut PaneContext<'_>) -> Dress<'a> {
-    let key = draping
-        .motion
-        .facts
-        .cloths
-        .get(nth)
-        .and_then(|facts| facts.key.clone());
+    let facts = draping.motion.facts.cloths.get(nth);
+    let key = facts.and_then(|facts| facts.key.clone());
     let bench = &mut *context.bench;
     let view = &mut bench.library.view;
     let picture = key.and_then(|key| {
