@@ -4,10 +4,10 @@
 use std::time::Instant;
 
 use super::{Sample, left_j, off_mm, pinch};
-use crate::chart::{chart, place};
+use crate::chart::{chart, error_against_time, place};
 use crate::readable::{number, whole};
 use crate::{Bench, Effort, Findings, ReportError, Row, Study, Timing};
-use selvedge_chart::{Axis, Chart, Series, Style};
+use selvedge_chart::{Axis, Chart, Style};
 use selvedge_drape::{Drape, Hand, Integrator};
 use selvedge_foundation::progress::thread_cpu_seconds;
 
@@ -15,7 +15,7 @@ use selvedge_foundation::progress::thread_cpu_seconds;
 pub(crate) const STUDY: Study = Study {
     name: "drape",
     question: "How should a hanging cloth be stepped, and what does it cost?",
-    reference: "Explicit steps of a twentieth of their limit: of a tenth at 51², half beyond 1e4 N/m.",
+    reference: "Explicit steps of a twentieth of their limit: of a fifth at 51², half beyond 1e4 N/m.",
     error: ("error of places, rms", "mm"),
     cost_of: "second of the cloth's",
     run,
@@ -57,7 +57,7 @@ const GRASP: Motion = Motion {
 
 /// Ways of stepping and their steps, s; that of explicit ones is a share of their limit.
 const WAYS: [(Integrator, f64); 11] = [
-    (Integrator::Explicit, 0.9),
+    (Integrator::Explicit, 0.8),
     (Integrator::Bdf2, 1e-3),
     (Integrator::Bdf2, 1.0 / 480.0),
     (Integrator::Bdf2, 1.0 / 240.0),
@@ -77,17 +77,25 @@ pub(super) const PRECONDITIONERS: [&str; 2] = ["diagonal", "line"];
 
 fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
     let motions = motions(bench.effort);
-    let mut rows = Vec::new();
+    let (mut rows, mut plots) = (Vec::new(), Vec::new());
     for (nth, motion) in motions.iter().enumerate() {
         bench.step(0.9 * nth as f64 / motions.len() as f64, &motion.case())?;
-        rows.extend(compare(motion, bench.effort)?);
+        let own = Findings::new(compare(motion, bench.effort)?, Vec::new(), [""; 0]);
+        let picture = error_against_time(&STUDY, &own).map(|picture| Chart {
+            title: motion.case(),
+            ..picture
+        });
+        let name = format!(
+            "drape-{}-{}",
+            motion.name.replace(' ', "-"),
+            motion.sample.n
+        );
+        let is_cloth = motion.sample.stiffness_n_per_m.is_none();
+        plots.extend(picture.filter(|_| is_cloth).map(|picture| (name, picture)));
+        rows.extend(own.rows);
     }
     bench.step(0.9, "preconditioners")?;
-    let iterations = preconditioners(bench.effort.pick(26, 51))?;
-    let plot = (
-        "drape-iterations".to_owned(),
-        picture_of_iterations(&iterations),
-    );
+    let (iterations, picture) = preconditioners(bench.effort.pick(26, 51))?;
     rows.extend(iterations);
     bench.step(0.95, "sleep")?;
     let (asleep, saved) = sleep()?;
@@ -98,38 +106,41 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
          grasped."
             .to_owned(),
         "energy_beyond_percent: energy at the end less the work of hands, beyond the reference's, \
-         of the cloth's weight times its length: below 0 the way of stepping itself has lost it."
+         of the cloth's weight times its length: below 0 the way of stepping itself has lost it; XPBD \
+         stretches yarns farther than it pulls with."
             .to_owned(),
     ];
-    Ok(Findings::new(rows, vec![plot], notes))
+    plots.push(("drape-iterations".to_owned(), picture));
+    Ok(Findings::new(rows, plots, notes))
 }
 
 /// A small cloth for a look; else two grids, and stiffnesses beyond any cloth's.
 fn motions(effort: Effort) -> Vec<Motion> {
-    let with = |motion: Motion, n: usize, stiffness_n_per_m: Option<f64>| Motion {
-        sample: Sample {
-            n,
-            stiffness_n_per_m,
-            ..motion.sample
-        },
-        ..motion
-    };
     if effort == Effort::Quick {
         let short = |motion: Motion| Motion {
             seconds: 0.12,
-            ..with(motion, 13, None)
+            ..motion.with(13, None)
         };
         return vec![short(SWING), short(GRASP)];
     }
     let mut all = Vec::new();
     for n in [26, 51] {
-        all.extend([SWING, FALL, GRASP].map(|motion| with(motion, n, None)));
+        all.extend([SWING, FALL, GRASP].map(|motion| motion.with(n, None)));
     }
-    all.extend(STIFFNESSES.map(|k| with(SWING, 26, Some(k))));
+    all.extend(STIFFNESSES.map(|k| SWING.with(26, Some(k))));
     all
 }
 
 impl Motion {
+    fn with(self, n: usize, stiffness_n_per_m: Option<f64>) -> Self {
+        let sample = Sample {
+            n,
+            stiffness_n_per_m,
+            ..self.sample
+        };
+        Self { sample, ..self }
+    }
+
     fn case(&self) -> String {
         let yarns = match self.sample.stiffness_n_per_m {
             None => "shirting".to_owned(),
@@ -149,12 +160,12 @@ impl Motion {
 
     /// Moves a cloth to the end; how long that took.
     fn run(&self, drape: &mut Drape, n_steps: usize) -> Result<Timing, ReportError> {
-        let ((), timing) = timed_once(self.seconds, || {
-            (0..n_steps).try_for_each(|_| {
-                let hands = Self::hands(drape.t_s() + drape.step_s());
-                drape.step(&hands[..self.sample.n_fingers])
-            })
-        })?;
+        let mut step = || {
+            let hands = Self::hands(drape.t_s() + drape.step_s());
+            drape.step(&hands[..self.sample.n_fingers])
+        };
+        let steps = || (0..n_steps).try_for_each(|_| step());
+        let ((), timing) = timed_once(self.seconds, steps)?;
         Ok(timing)
     }
 
@@ -162,10 +173,8 @@ impl Motion {
     fn start(&self, integrator: Integrator, step_s: f64) -> Result<(Drape, usize), ReportError> {
         let n_steps = (self.seconds / step_s - 1e-9).ceil();
         let step_s = self.seconds / n_steps;
-        let drape = self
-            .sample
-            .drape(self.tilt_deg, (integrator, Some(step_s)))?;
-        Ok((drape, whole(n_steps)))
+        let stepped = (integrator, Some(step_s));
+        Ok((self.sample.drape(self.tilt_deg, stepped)?, whole(n_steps)))
     }
 }
 
@@ -179,7 +188,7 @@ fn compare(motion: &Motion, effort: Effort) -> Result<Vec<Row>, ReportError> {
     let is_stiff = motion.sample.stiffness_n_per_m.is_some_and(|k| k > 1e4);
     let share = match motion.sample.n {
         _ if is_stiff => 0.5,
-        51 => 0.1,
+        51 => 0.2,
         _ => effort.pick(0.2, 0.05),
     };
     // Stretched on its way a cloth is stiffer than at its start.
@@ -205,13 +214,18 @@ fn compare(motion: &Motion, effort: Effort) -> Result<Vec<Row>, ReportError> {
         };
         let counters = *drape.counters();
         let percent = 100.0 * (left_j(&mut drape) - left_j(&mut reference)) / drape.scale_j();
-        let row = row.error(off_mm(&drape, &reference)).cost(cost).number(
-            "energy_beyond_percent",
-            3,
-            percent,
-        );
+        // Where it falls any step comes late to a fold that snaps.
+        let promised = match integrator {
+            _ if motion.name == FALL.name || motion.sample.stiffness_n_per_m.is_some() => None,
+            Integrator::Explicit => Some(0.02),
+            Integrator::Bdf2 => Some(0.5),
+            _ => None,
+        };
+        let row = row.error(off_mm(&drape, &reference)).cost(cost);
+        let row = row.promised(promised);
         rows.push(
-            row.number("newton_a_step", 2, counters.newton as f64 / n_steps as f64)
+            row.number("energy_beyond_percent", 3, percent)
+                .number("newton_a_step", 2, counters.newton as f64 / n_steps as f64)
                 .number("linear_a_step", 1, counters.linear as f64 / n_steps as f64)
                 .with("redone", counters.redone)
                 .with("unconverged", counters.unconverged),
@@ -221,50 +235,31 @@ fn compare(motion: &Motion, effort: Effort) -> Result<Vec<Row>, ReportError> {
 }
 
 /// Iterations of conjugate gradients for one step, by stiffness and by what precedes them.
-fn preconditioners(n: usize) -> Result<Vec<Row>, ReportError> {
-    let mut rows = Vec::new();
+fn preconditioners(n: usize) -> Result<(Vec<Row>, Chart), ReportError> {
+    let (mut rows, mut series) = (Vec::new(), Vec::new());
     for step_s in [1e-3, 1.0 / 240.0] {
         for k in STIFFNESSES {
-            let swing = Motion {
-                sample: Sample {
-                    n,
-                    stiffness_n_per_m: Some(k),
-                    ..SWING.sample
-                },
-                ..SWING
-            };
+            let swing = SWING.with(n, Some(k));
             let (mut drape, _) = swing.start(Integrator::Bdf2, step_s)?;
             (0..10).try_for_each(|_| drape.step(&[]))?;
             let setting = format!("{} ms", number(1e3 * drape.step_s()));
-            for (name, n) in PRECONDITIONERS.into_iter().zip(drape.linear_iterations()) {
-                let row = Row::of(name, setting.clone(), format!("{n}², K {k:e} N/m"));
-                rows.push(row.with("iterations", n));
+            for (name, found) in PRECONDITIONERS.into_iter().zip(drape.linear_iterations()) {
+                let line = format!("{name}, {setting}");
+                let at = place(&mut series, &line, Style::LineAndDots);
+                series[at].points.push([k, f64::from(found)]);
+                let row = Row::of(name, setting.clone(), swing.case());
+                rows.push(row.with("iterations", found));
             }
         }
     }
-    Ok(rows)
-}
-
-/// Iterations over stiffness.
-fn picture_of_iterations(rows: &[Row]) -> Chart {
-    let mut series: Vec<Series> = Vec::new();
-    for (row, k) in rows
-        .iter()
-        .zip(STIFFNESSES.into_iter().flat_map(|k| [k; 2]).cycle())
-    {
-        let name = format!("{}, {}", row.method, row.setting);
-        let at = place(&mut series, &name, Style::LineAndDots);
-        series[at]
-            .points
-            .extend(row.further_number("iterations").map(|n| [k, n]));
-    }
-    chart(
+    let picture = chart(
         "Iterations of conjugate gradients",
         Axis::log("stiffness of the yarns, N/m"),
         Axis::log("iterations to a thousandth"),
         series,
         "The first Newton step of one step of a cloth that swings.",
-    )
+    );
+    Ok((rows, picture))
 }
 
 /// What work comes to, and what it costs a unit: long work that is done once.

@@ -55,7 +55,7 @@ fn halvings((method, case): (&str, &str), errors: &[(String, f64)], order: f64) 
 /// A small soft cloth that is let go at 46°, against explicit steps far shorter.
 fn in_time(effort: Effort) -> Result<Vec<Row>, ReportError> {
     let sample = Sample {
-        n: effort.pick(6, 13),
+        n: effort.pick(6, 9),
         stiffness_n_per_m: Some(100.0),
         ..Sample::SHIRTING
     };

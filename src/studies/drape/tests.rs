@@ -31,7 +31,7 @@ fn bdf2_comes_nearest_at_a_given_step_and_a_sleeping_cloth_costs_next_to_nothing
         let mut rows = rows.filter(|row| row.setting == "4.17 ms" && row.case.contains(k));
         rows.next().unwrap().further_number("iterations").unwrap()
     };
-    for k in ["K 1e1 ", "K 1e4 "] {
+    for k in ["K 1e1 N", "K 1e4 N"] {
         let [diagonal, line] = PRECONDITIONERS.map(|name| of_k(name, k));
         assert!(5.0 < line && line < diagonal, "{k}: {diagonal} {line}");
     }
