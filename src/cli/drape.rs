@@ -118,9 +118,10 @@ pub(super) fn run(args: &DrapeArgs) -> Result<(), CliError> {
             .transpose()?;
         follow((args, felt), &mut drape, &hands, &stop)?
     } else {
-        let mut mesh = MeshOut::new(args.out.as_deref().or(args.mesh.as_deref()))?;
-        mesh.write(&drape)?;
-        mesh.0.finish()?;
+        let place = args.out.as_deref().or(args.mesh.as_deref());
+        let mut mesh = TableOut::new(place, &MESH_COLUMNS)?;
+        write_mesh(&mut mesh, &drape)?;
+        mesh.finish()?;
         [drape.energy_j()[0], 0.0]
     };
     match &args.stats {
@@ -145,14 +146,14 @@ fn follow(
             "{what}; give a shorter one, or a larger --dt"
         )));
     }
-    let mut mesh = args
-        .mesh
-        .as_deref()
-        .map(|path| MeshOut::new(Some(path)))
-        .transpose()?;
     let mut hands: Vec<Hand> = drape.start_hands();
     path.at(start_s, &mut hands);
     drape.place(&hands);
+    // Before anything is written.
+    drape.holds()?;
+    let mesh = args.mesh.as_deref();
+    let mesh = mesh.map(|path| TableOut::new(Some(path), &MESH_COLUMNS));
+    let mut mesh = mesh.transpose()?;
     let [start_j, _] = drape.energy_j();
     let (mut gained_j, mut next_mesh) = (0.0_f64, 0.0);
     let mut forces = ForcesOut::new(args.out.as_deref(), (step_s, start_j))?;
@@ -162,7 +163,7 @@ fn follow(
             return Err(Cancelled.into());
         }
         if let Some(mesh) = mesh.as_mut().filter(|_| drape.t_s() >= next_mesh - 1e-9) {
-            mesh.write(drape)?;
+            write_mesh(mesh, drape)?;
             next_mesh += MESH_EVERY_S;
         }
         let to_s = Drape::after_s(nth, step_s);
@@ -185,8 +186,8 @@ fn follow(
         meter.show(nth as f64 / n_steps, drape.integrator().0.name());
     }
     if let Some(mut mesh) = mesh {
-        mesh.write(drape)?;
-        mesh.0.finish()?;
+        write_mesh(&mut mesh, drape)?;
+        mesh.finish()?;
     }
     felt.map_or(Ok(()), |felt| felt.table.finish())?;
     forces.table.finish()?;
@@ -281,29 +282,20 @@ impl ForcesOut {
     }
 }
 
-/// A table of shapes.
-struct MeshOut(TableOut);
+/// Columns of a table of shapes.
+const MESH_COLUMNS: [&str; 6] = ["t_s", "i", "j", "x_mm", "y_mm", "z_mm"];
 
-impl MeshOut {
-    fn new(path: Option<&Path>) -> Result<Self, CliError> {
-        let header = ["t_s", "i", "j", "x_mm", "y_mm", "z_mm"];
-        Ok(Self(TableOut::new(path, &header)?))
-    }
-
-    fn write(&mut self, drape: &Drape) -> Result<(), CliError> {
-        let [n_warp, _] = drape.grid();
-        for (vertex, place) in drape.places_mm().enumerate() {
-            let rows = self.0.rows();
-            rows.number(drape.t_s())
-                .number(vertex % n_warp)
-                .number(vertex / n_warp);
-            for mm in place {
-                rows.number(mm);
-            }
-            rows.end_row()?;
+fn write_mesh(mesh: &mut TableOut, drape: &Drape) -> Result<(), CliError> {
+    let [n_warp, _] = drape.grid();
+    for (vertex, place) in drape.places_mm().enumerate() {
+        let rows = mesh.rows().number(drape.t_s());
+        rows.number(vertex % n_warp).number(vertex / n_warp);
+        for mm in place {
+            rows.number(mm);
         }
-        Ok(())
+        rows.end_row()?;
     }
+    Ok(())
 }
 
 fn write_stats(

@@ -90,7 +90,7 @@ pub(crate) struct Cloth {
     /// Whether velocities are those between two places, as explicit steps have them.
     pub(crate) is_staggered: bool,
     /// Whether the place now is what was evaluated last.
-    is_evaluated: bool,
+    pub(crate) is_evaluated: bool,
     rests_s: f64,
     pub(crate) counters: DrapeCounters,
     /// Work that hands did, J.
@@ -201,13 +201,8 @@ impl Cloth {
     /// # Errors
     /// An explicit step beyond its limit; nothing has moved then.
     pub(crate) fn step(&mut self, targets: &[Vector]) -> Result<(), DrapeError> {
+        self.holds()?;
         let step_s = self.stepping.step_s;
-        if self.stepping.integrator == Integrator::Explicit {
-            let limit_s = self.limit_s();
-            if step_s > limit_s {
-                return Err(DrapeError::Unstable { step_s, limit_s });
-            }
-        }
         self.counters.steps += 1;
         if self.sleeps(targets) {
             self.counters.asleep += 1;
@@ -217,11 +212,6 @@ impl Cloth {
             self.counters.targets_held += u64::from(!System::is_finite(&[*target]));
             finger.lead(*target, step_s);
         }
-        // What moves by its forces at the start is not evaluated where it ends.
-        self.is_evaluated = !matches!(
-            self.stepping.integrator,
-            Integrator::Explicit | Integrator::Xpbd | Integrator::Projective
-        );
         match self.stepping.integrator {
             Integrator::Explicit => self.explicit(),
             Integrator::ImplicitEuler => self.implicit(1),
@@ -229,9 +219,25 @@ impl Cloth {
             Integrator::Projective => self.project(),
             _ => self.implicit(if self.n_past > 0 { 2 } else { 1 }),
         }
+        // What moves by its forces at the start is not evaluated where it ends.
+        self.is_evaluated = !matches!(
+            self.stepping.integrator,
+            Integrator::Explicit | Integrator::Xpbd | Integrator::Projective
+        );
         let fingers = self.system.fingers.iter();
         self.work_j += fingers.map(|finger| finger.work_j(step_s)).sum::<f64>();
         self.end(step_s);
+        Ok(())
+    }
+
+    /// Whether the next step is one that its integrator holds.
+    pub(crate) fn holds(&self) -> Result<(), DrapeError> {
+        if self.stepping.integrator == Integrator::Explicit {
+            let (step_s, limit_s) = (self.stepping.step_s, self.limit_s());
+            if step_s > limit_s {
+                return Err(DrapeError::Unstable { step_s, limit_s });
+            }
+        }
         Ok(())
     }
 
@@ -281,14 +287,23 @@ impl Cloth {
 
     /// Energy of all, J: in motion, stored, and in the field of gravity.
     pub(crate) fn energy_j(&mut self) -> f64 {
-        let Self {
-            system, x, newton, ..
-        } = self;
         if !self.is_evaluated {
-            system.evaluate(x, &mut newton.grad);
+            if self.is_staggered {
+                self.evaluate_at_start();
+            } else {
+                self.system.evaluate(&self.x, &mut self.newton.grad);
+            }
             self.is_evaluated = true;
         }
-        system.kinetic_j(&self.v) + system.energy.stored + system.height_j(x, self.gravity)
+        // Explicit velocities are those half a step ago.
+        let since_s = if self.is_staggered {
+            0.5 * self.stepping.step_s
+        } else {
+            0.0
+        };
+        let v = (0..self.v.len()).map(|node| self.pushed(node, since_s));
+        let system = &self.system;
+        system.kinetic_j(v) + system.energy.stored + system.height_j(&self.x, self.gravity)
     }
 
     /// The fingers.

@@ -195,7 +195,7 @@ impl Compression {
 
 /// The mechanical figures of a cloth; those of two directions are [warp, weft].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fabric {
+pub(crate) struct Fabric {
     pub(crate) density_kg_per_m2: f64,
     pub(crate) tension: [Tension; 2],
     /// Friction of tension f, N/m.
@@ -214,19 +214,9 @@ pub struct Fabric {
 }
 
 impl Fabric {
-    /// Mass per area, kg/m².
-    pub fn density_kg_per_m2(&self) -> f64 {
-        self.density_kg_per_m2
-    }
-
-    /// Strains up to which tension was measured, along warp and weft.
-    pub fn max_strains(&self) -> [f64; 2] {
-        self.tension.map(|tension| tension.max_strain)
-    }
-
     /// The grid spacing that resolves its folds and the pads of fingers, m: a third of the length
     /// `c = (B/ρg)^⅓` over which it bends by its own weight, at most `largest_m`.
-    pub fn spacing_m(&self, largest_m: f64) -> f64 {
+    pub(crate) fn spacing_m(&self, largest_m: f64) -> f64 {
         let [warp, weft] = self.bending_n_m;
         let bends_m = (warp.min(weft) / (self.density_kg_per_m2 * super::GRAVITY)).cbrt();
         // A limp cloth has no such length; folds finer than 4 mm are not followed.

@@ -61,7 +61,7 @@ impl Finger {
     pub(crate) fn new(
         node: usize,
         (own_side, rotation_deg): (f64, f64),
-        fabric: &super::Fabric,
+        fabric: &super::fabric::Fabric,
         start: Vector,
     ) -> Self {
         let point = |offset| Point {

@@ -25,6 +25,18 @@ pub struct Hand {
     pub opening_mm: f64,
 }
 
+impl Hand {
+    /// So far on the way to another.
+    #[must_use]
+    pub fn towards(self, to: Self, share: f64) -> Self {
+        let mix = |a: f64, b: f64| a + (b - a) * share;
+        Self {
+            centre_mm: [0, 1, 2].map(|axis| mix(self.centre_mm[axis], to.centre_mm[axis])),
+            opening_mm: mix(self.opening_mm, to.opening_mm),
+        }
+    }
+}
+
 /// Where hands go over time.
 #[derive(Debug, Clone)]
 pub struct HandPath {
@@ -143,14 +155,8 @@ impl HandPath {
         } else {
             0.0
         };
-        let between = |a: f64, b: f64| a + (b - a) * share;
         for (hand, rows) in hands.iter_mut().zip(&self.hands) {
-            let (from, to) = (rows[a], rows[b]);
-            let centre_mm = [0, 1, 2].map(|axis| between(from.centre_mm[axis], to.centre_mm[axis]));
-            *hand = Hand {
-                centre_mm,
-                opening_mm: between(from.opening_mm, to.opening_mm),
-            };
+            *hand = rows[a].towards(rows[b], share);
         }
     }
 }

@@ -135,10 +135,8 @@ pub(crate) fn tension_curves(path: &Path) -> Result<([Tension; 2], Figures), Dra
         let tension = Tension::measured(&Curve::new(&points).map_err(wrong)?);
         let [work, load, _] = tension.at(tension.max_strain);
         figures.insert(format!("emt_{side}_percent"), 100.0 * tension.max_strain);
-        figures.insert(
-            format!("lt_{side}"),
-            work / (0.5 * load * tension.max_strain),
-        );
+        let lt = work / (0.5 * load * tension.max_strain);
+        figures.insert(format!("lt_{side}"), lt);
         figures.insert(LOAD.to_owned(), load / N_PER_M);
         Ok::<_, DrapeError>(tension)
     };
@@ -183,14 +181,12 @@ fn odd(figures: &Figures, (emt, lt, load): ([f64; 2], [f64; 2], f64), weight: f6
         }
     }
     if let Some(miu) = mean(figures, "miu", "").filter(|miu| *miu > 1.0) {
-        lines.push(format!(
-            "MIU is {miu}: more than 1 is hardly cloth on steel"
-        ));
+        let what = "more than 1 is hardly cloth on steel";
+        lines.push(format!("MIU is {miu}: {what}"));
     }
     if weight > 80.0 {
-        lines.push(format!(
-            "the weight is {weight} mg/cm²: more than 80 is hardly cloth"
-        ));
+        let what = "more than 80 is hardly cloth";
+        lines.push(format!("the weight is {weight} mg/cm²: {what}"));
     }
     lines
 }
@@ -310,7 +306,7 @@ mod tests {
                 "{tension}"
             );
         }
-        assert!((scene.fabric().max_strains()[1] - 0.04).abs() < 1e-12);
+        assert!((scene.fabric().tension[1].max_strain - 0.04).abs() < 1e-12);
         for (rows, expected) in [
             ("strain_percent\n1\n", "no column warp_gf_per_cm"),
             (

@@ -57,7 +57,6 @@ mod xpbd;
 
 pub use cloth::DrapeCounters;
 pub use error::DrapeError;
-pub use fabric::Fabric;
 pub use felt::{Felt, FeltTick};
 pub use hands::{Hand, HandPath};
 pub use integrator::Integrator;

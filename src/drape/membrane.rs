@@ -233,9 +233,7 @@ impl Shear {
     }
 
     pub(crate) fn precondition(&self, mesh: &Mesh, lines: &mut LinePreconditioner) {
-        let columns = mesh.n[0] - 1;
-        for (index, cell) in self.cells.iter().enumerate() {
-            let [c00, c10, c01, c11] = mesh.corners(index / columns * mesh.n[0] + index % columns);
+        for (cell, [c00, c10, c01, c11]) in self.cells.iter().zip(mesh.cells()) {
             for (corners, part) in [([c00, c11], cell.far), ([c10, c01], cell.near)] {
                 for corner in corners {
                     lines.add_direction(corner, part, cell.stiffness);

@@ -180,6 +180,13 @@ impl Mesh {
         })
     }
 
+    /// The corners of all cells, row by row.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = [usize; 4]> + '_ {
+        let [n_u, n_w] = self.n;
+        let rows = (0..n_w - 1).map(move |row| row * n_u);
+        rows.flat_map(move |first| (first..first + n_u - 1).map(move |cell| self.corners(cell)))
+    }
+
     /// The four corners of the cell that begins at a vertex.
     pub(crate) fn corners(&self, vertex: usize) -> [usize; 4] {
         [

@@ -75,7 +75,7 @@ impl Newton {
             system.evaluate(x, &mut self.grad)
         });
         while outcome.n_steps < stop.max_steps {
-            outcome.n_linear += self.solve(system, x);
+            outcome.n_linear += self.solve(system, x, LINEAR);
             outcome.n_steps += 1;
             let gain: f64 = -dot(&self.grad, &self.delta);
             if !gain.is_finite() || gain < 0.0 {
@@ -89,7 +89,7 @@ impl Newton {
             };
             value = reached;
             if system.look(x) {
-                value = system.evaluate(x, &mut self.grad);
+                value = system.evaluate_touch(x, &mut self.grad);
             }
             if gain < stop.gain_j {
                 outcome.is_converged = true;
@@ -122,13 +122,20 @@ impl Newton {
         None
     }
 
-    /// Solves for the step by conjugate gradients; says how many iterations it took.
-    fn solve(&mut self, system: &System, x: &[Vector]) -> u32 {
+    /// Iterations that a first step from `x` takes to a thousandth, with the lines solved or not.
+    pub(crate) fn iterations(&mut self, system: &mut System, x: &[Vector], lines: bool) -> u32 {
+        system.evaluate(x, &mut self.grad);
+        self.lines.is_coupled = lines;
+        self.solve(system, x, 1e-3)
+    }
+
+    /// Solves for the step by conjugate gradients as far as asked; says how many iterations it took.
+    fn solve(&mut self, system: &System, x: &[Vector], reach: f64) -> u32 {
         system.precondition(x, &mut self.lines);
         for (r, grad) in self.r.iter_mut().zip(&self.grad) {
             *r = -grad;
         }
-        self.conjugate(system, (LINEAR, system.n_nodes()))
+        self.conjugate(system, (reach, system.n_nodes()))
     }
 
     /// What the fingers' nodes meet in the cloth when they move, N/m: the Schur complement of the

@@ -152,12 +152,6 @@ impl Twist {
         2.0 * self.rigidity_n_m / (mesh.h[0] * mesh.h[1])
     }
 
-    fn cells(mesh: &Mesh) -> impl Iterator<Item = [usize; 4]> + '_ {
-        let rows = 0..mesh.n[1] - 1;
-        rows.flat_map(move |row| (0..mesh.n[0] - 1).map(move |column| row * mesh.n[0] + column))
-            .map(|first| mesh.corners(first))
-    }
-
     pub(crate) fn evaluate(
         self,
         mesh: &Mesh,
@@ -185,7 +179,7 @@ impl Twist {
 
     pub(crate) fn precondition(self, mesh: &Mesh, lag: &Lag, lines: &mut LinePreconditioner) {
         let stiffness = self.stiffness(mesh) * (1.0 + lag.sigma * self.viscosity_s);
-        for corners in Self::cells(mesh) {
+        for corners in mesh.cells() {
             for corner in corners {
                 lines.add_everywhere(corner, stiffness);
             }

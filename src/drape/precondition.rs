@@ -11,6 +11,8 @@ use super::mesh::{Mesh, Vector};
 #[derive(Debug, Clone)]
 pub(crate) struct LinePreconditioner {
     n: [usize; 2],
+    /// Whether lines are solved; else each vertex by its diagonal alone.
+    pub(crate) is_coupled: bool,
     frames: Vec<[Vector; 3]>,
     /// Along û, ŵ, n; once factored, 1/D.
     diagonals: Vec<[f64; 3]>,
@@ -26,6 +28,7 @@ impl LinePreconditioner {
         let n = mesh.n_vertices();
         Self {
             n: mesh.n,
+            is_coupled: true,
             frames: vec![[Vector::x(), Vector::y(), Vector::z()]; n],
             diagonals: vec![[0.0; 3]; n],
             couplings: vec![[0.0; 2]; n],
@@ -47,6 +50,7 @@ impl LinePreconditioner {
     }
 
     /// An edge along an axis: its stiffness along itself beyond that across.
+    #[inline]
     pub(crate) fn add_edge(&mut self, axis: usize, ends: [usize; 2], [along, across]: [f64; 2]) {
         let whole = (along + across).max(0.0);
         for vertex in ends {
@@ -54,7 +58,9 @@ impl LinePreconditioner {
             *diagonal = diagonal.map(|entry| entry + across);
             diagonal[axis] += whole - across;
         }
-        self.couplings[ends[0]][axis] -= whole;
+        if self.is_coupled {
+            self.couplings[ends[0]][axis] -= whole;
+        }
     }
 
     /// Stiffness in all directions alike.

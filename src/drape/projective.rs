@@ -58,11 +58,7 @@ impl Projection {
         let sheared = 0.5 * (rigid + damped / step_s) * (h_u / h_w + h_w / h_u);
         let twist = sheet.twist.rigidity_n_m * (1.0 + sheet.twist.viscosity_s / step_s);
         let twisted = 2.0 * twist / (h_u * h_w);
-        for (_, first, _) in mesh
-            .lines(0, 1)
-            .filter(|(_, first, _)| first + mesh.n[0] < n)
-        {
-            let [c00, c10, c01, c11] = mesh.corners(first);
+        for [c00, c10, c01, c11] in mesh.cells() {
             join(&[(c00, -1.0), (c11, 1.0)], sheared);
             join(&[(c10, -1.0), (c01, 1.0)], sheared);
             join(&[(c00, 1.0), (c10, -1.0), (c01, -1.0), (c11, 1.0)], twisted);

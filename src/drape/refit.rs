@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use super::fabric::Fabric;
 use super::kes::{self, Figures};
 use super::run::Drape;
-use super::{DrapeError, DrapeScene, Fabric};
+use super::{DrapeError, DrapeScene};
 
 /// The key of friction between finger and cloth, which no tester measures.
 const FRICTION: &str = "friction";

@@ -1,6 +1,6 @@
 //! A scene in motion, seen from outside: in millimetres, step by step.
 
-use super::cloth::{Cloth, DrapeCounters};
+use super::cloth::{Cloth, DrapeCounters, EXACT};
 use super::finger::{Finger, Point};
 use super::hands::Hand;
 use super::integrator::Integrator;
@@ -127,6 +127,14 @@ impl Drape {
         self.local = (Local::new(&self.cloth), true);
     }
 
+    /// Whether its next step can be taken.
+    ///
+    /// # Errors
+    /// An explicit step beyond its limit.
+    pub fn holds(&self) -> Result<(), DrapeError> {
+        self.cloth.holds()
+    }
+
     /// Takes another cloth where this one is: the clock goes on.
     pub(crate) fn take(&mut self, cloth: Cloth, why: String) {
         self.since = (self.t_s(), cloth.counters.steps);
@@ -147,6 +155,23 @@ impl Drape {
     /// What energies are measured by: its weight times its length, J.
     pub fn scale_j(&self) -> f64 {
         self.cloth.system.sheet.scale_j()
+    }
+
+    /// Solves implicit steps as far as studies ask, not only as far as is felt.
+    pub fn solve_exactly(&mut self) {
+        self.cloth.stepping.gain = EXACT;
+    }
+
+    /// Iterations of conjugate gradients to a thousandth for the first Newton step of the step that
+    /// comes: by the diagonal of each vertex, and with the lines of yarn solved.
+    pub fn linear_iterations(&self) -> [u32; 2] {
+        let mut ahead = self.cloth.clone();
+        ahead.prepare(2);
+        let step_s = ahead.stepping.step_s;
+        let start = ahead.x.iter().zip(&ahead.v).map(|(x, v)| x + v * step_s);
+        let start: Vec<Vector> = start.collect();
+        let Cloth { system, newton, .. } = &mut ahead;
+        [false, true].map(|lines| newton.iterations(system, &start, lines))
     }
 
     fn aim(&mut self, hands: &[Hand]) {
@@ -313,16 +338,6 @@ impl Drape {
     /// What was done.
     pub fn counters(&self) -> &DrapeCounters {
         &self.cloth.counters
-    }
-
-    /// The largest strain along warp and weft now.
-    pub fn strains(&self) -> [f64; 2] {
-        self.cloth
-            .system
-            .sheet
-            .stretch
-            .each_ref()
-            .map(|one| one.largest_strain)
     }
 }
 

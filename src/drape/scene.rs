@@ -4,14 +4,15 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
+use super::DrapeError;
 use super::cloth::{Cloth, Stepping};
+use super::fabric::Fabric;
 use super::finger::Finger;
 use super::integrator::Integrator;
 use super::kes::{self, Figures};
 use super::mesh::{Mesh, Pins, Vector};
 use super::sheet::{Losses, Sheet};
 use super::system::System;
-use super::{DrapeError, Fabric};
 use selvedge_foundation::files::{self, Flaw};
 use selvedge_textile::Library;
 
@@ -278,7 +279,7 @@ impl DrapeScene {
     }
 
     /// Its mechanical laws.
-    pub fn fabric(&self) -> &Fabric {
+    pub(crate) fn fabric(&self) -> &Fabric {
         &self.fabric
     }
 

@@ -11,19 +11,8 @@ impl Cloth {
     pub(crate) fn explicit(&mut self) {
         let step_s = self.stepping.step_s;
         let Self { system, x, v, .. } = self;
-        system.lag.mu = 0.0;
-        system.lag.sigma = 1.0 / step_s;
         system.sheet.begin(&mut system.lag, x, v);
-        // Velocity for damping is the last step's: x − x̂ = dt v.
-        for (node, hat) in system.lag.hat.iter_mut().enumerate() {
-            *hat = x[node] - v[node] * step_s;
-        }
-        system.lag.angles.copy_from_slice(&self.past[0].angles);
-        for finger in &mut system.fingers {
-            finger.begin(&system.lag);
-        }
-        system.look(x);
-        system.evaluate(x, &mut self.newton.grad);
+        self.evaluate_at_start();
         // What was evaluated is where the step begins.
         self.angles.copy_from_slice(&self.system.sheet.shear.angles);
         self.remember();
@@ -33,26 +22,47 @@ impl Cloth {
             0.5 * step_s
         };
         self.is_staggered = true;
-        let Self { system, x, v, .. } = self;
-        for node in 0..x.len() {
-            if system.is_held(node) {
-                v[node] = Vector::zeros();
-                continue;
-            }
-            let mass = system.mass_kg[node];
-            let is_cloth = node < system.sheet.mesh.n_vertices();
-            let gravity = if is_cloth {
-                self.gravity
-            } else {
-                Vector::zeros()
-            };
-            v[node] += (gravity - self.newton.grad[node] / mass) * push_s;
-            x[node] += v[node] * step_s;
+        for node in 0..self.x.len() {
+            self.v[node] = self.pushed(node, push_s);
+            self.x[node] += self.v[node] * step_s;
         }
+        let Self { system, x, .. } = self;
         system.sheet.settle(x, &system.lag);
         for finger in &mut system.fingers {
             finger.settle(&system.sheet.mesh, x);
         }
+    }
+
+    /// Forces where an explicit step begins: damping is by the velocity before, `x − x̂ = dt v`.
+    pub(crate) fn evaluate_at_start(&mut self) {
+        let step_s = self.stepping.step_s;
+        let Self { system, x, v, .. } = self;
+        (system.lag.mu, system.lag.sigma) = (0.0, 1.0 / step_s);
+        for (node, hat) in system.lag.hat.iter_mut().enumerate() {
+            *hat = x[node] - v[node] * step_s;
+        }
+        system.lag.angles.copy_from_slice(&self.past[0].angles);
+        for finger in &mut system.fingers {
+            finger.begin(&system.lag);
+        }
+        system.look(x);
+        system.evaluate(x, &mut self.newton.grad);
+    }
+
+    /// Velocity of a node after what was evaluated has pushed it for so long, m/s.
+    pub(crate) fn pushed(&self, node: usize, for_s: f64) -> Vector {
+        let system = &self.system;
+        if system.is_held(node) {
+            return Vector::zeros();
+        }
+        let push = self.newton.grad[node] / system.mass_kg[node];
+        let is_cloth = node < system.sheet.mesh.n_vertices();
+        let falls = if is_cloth {
+            self.gravity
+        } else {
+            Vector::zeros()
+        };
+        self.v[node] + (falls - push) * for_s
     }
 
     /// Moves what is now into the past.
@@ -70,9 +80,15 @@ impl Cloth {
             gain_j: self.stepping.gain * self.system.sheet.scale_j(),
             max_steps: self.stepping.max_steps,
         };
+        // What is stored where the step begins, as it was evaluated last.
+        let stored_j = if self.is_evaluated {
+            self.system.stored_in_cloth_j()
+        } else {
+            f64::NEG_INFINITY
+        };
         let Self { system, x, v, .. } = self;
         system.sheet.begin(&mut system.lag, x, v);
-        let mut outcome = self.solve(order, stop);
+        let mut outcome = self.solve(order, stop, stored_j);
         if !outcome.is_converged && order == 2 {
             // Cut short, the second order gains energy; the first loses some.
             self.counters.redone += 1;
@@ -82,6 +98,7 @@ impl Cloth {
                     max_steps: 1,
                     ..stop
                 },
+                stored_j,
             );
             outcome.n_steps += again.n_steps;
             outcome.n_linear += again.n_linear;
@@ -93,9 +110,9 @@ impl Cloth {
     }
 
     /// Finds where the step leads, into `next`.
-    fn solve(&mut self, order: usize, stop: Stop) -> Outcome {
+    fn solve(&mut self, order: usize, stop: Stop, stored_j: f64) -> Outcome {
         self.prepare(order);
-        let known = self.guess();
+        let known = self.guess(stored_j);
         let Self {
             system,
             newton,
@@ -153,13 +170,17 @@ impl Cloth {
         }
     }
 
-    /// The lowest of where it is, where its velocity leads and where its last steps lead; its value
-    /// if it was the last to be evaluated.
-    fn guess(&mut self) -> Option<f64> {
+    /// The lowest of where its velocity leads, where its last steps lead and where it is; its value
+    /// if it was the last to be evaluated. Where it is, inertia and what is stored are the least
+    /// that it can be: mostly that is above the others already.
+    fn guess(&mut self, stored_j: f64) -> Option<f64> {
         let step_s = self.stepping.step_s;
         let (mut lowest, mut last) = (f64::INFINITY, f64::INFINITY);
-        let n_guesses = if self.n_past > 1 { 3 } else { 2 };
-        for guess in 0..n_guesses {
+        let least_j = stored_j + self.system.inertia_j(&self.x);
+        for guess in [1, 2, 0] {
+            if guess == 2 && self.n_past < 2 || guess == 0 && least_j > lowest {
+                continue;
+            }
             for node in 0..self.x.len() {
                 let (now, v) = (self.x[node], self.v[node]);
                 let is_held = self.system.is_held(node);

@@ -15,6 +15,9 @@ pub(crate) struct System {
     pub(crate) mass_kg: Vec<f64>,
     /// Energy of the place that was evaluated last.
     pub(crate) energy: Energy,
+    /// Value, energy and gradient there without fingers.
+    of_cloth: (f64, Energy),
+    grad_of_cloth: Vec<Vector>,
 }
 
 impl System {
@@ -26,8 +29,10 @@ impl System {
             sheet,
             fingers,
             lag,
+            grad_of_cloth: vec![Vector::zeros(); mass_kg.len()],
             mass_kg,
             energy: Energy::default(),
+            of_cloth: (0.0, Energy::default()),
         }
     }
 
@@ -56,7 +61,28 @@ impl System {
 
     /// Its value and gradient; that of held nodes is 0.
     pub(crate) fn evaluate(&mut self, x: &[Vector], grad: &mut [Vector]) -> f64 {
-        let value = self.evaluate_all(x, grad);
+        let value = self.evaluate_cloth(x, grad);
+        self.of_cloth = (value, self.energy);
+        if !self.fingers.is_empty() {
+            self.grad_of_cloth.copy_from_slice(grad);
+        }
+        self.add_fingers(x, grad)
+    }
+
+    /// The same at the same place, once fingers have found anew what they touch.
+    pub(crate) fn evaluate_touch(&mut self, x: &[Vector], grad: &mut [Vector]) -> f64 {
+        grad.copy_from_slice(&self.grad_of_cloth);
+        self.add_fingers(x, grad)
+    }
+
+    fn add_fingers(&mut self, x: &[Vector], grad: &mut [Vector]) -> f64 {
+        let (mut value, energy) = self.of_cloth;
+        self.energy = energy;
+        for finger in &mut self.fingers {
+            let energy = finger.evaluate(x, grad);
+            self.energy += energy;
+            value += energy.stored + energy.lost;
+        }
         for (grad, pinned) in grad.iter_mut().zip(&self.sheet.mesh.is_pinned) {
             if *pinned {
                 *grad = Vector::zeros();
@@ -65,18 +91,7 @@ impl System {
         value
     }
 
-    /// The same with what pins hold against.
-    pub(crate) fn evaluate_all(&mut self, x: &[Vector], grad: &mut [Vector]) -> f64 {
-        let mut value = self.evaluate_cloth(x, grad);
-        for finger in &mut self.fingers {
-            let energy = finger.evaluate(x, grad);
-            self.energy += energy;
-            value += energy.stored + energy.lost;
-        }
-        value
-    }
-
-    /// The same without fingers.
+    /// Value and gradient of the cloth alone, with what pins hold against.
     pub(crate) fn evaluate_cloth(&mut self, x: &[Vector], grad: &mut [Vector]) -> f64 {
         let lag = &self.lag;
         let mut inertia = 0.0;
@@ -88,6 +103,19 @@ impl System {
         }
         self.energy = self.sheet.evaluate(x, lag, grad);
         inertia + self.energy.stored + self.energy.lost
+    }
+
+    /// Energy that was stored in the cloth where it was evaluated last, J.
+    pub(crate) fn stored_in_cloth_j(&self) -> f64 {
+        self.of_cloth.1.stored
+    }
+
+    /// What inertia takes to be at `x`, J.
+    pub(crate) fn inertia_j(&self, x: &[Vector]) -> f64 {
+        let off = |(x, free): (&Vector, &Vector)| (x - free).norm_squared();
+        let squares = x.iter().zip(&self.lag.free).map(off);
+        let each = squares.zip(&self.mass_kg);
+        0.5 * self.lag.mu * each.map(|(square, kg)| square * kg).sum::<f64>()
     }
 
     /// The tangent's product; held nodes neither move nor answer.
@@ -122,7 +150,7 @@ impl System {
     }
 
     /// Kinetic energy, J.
-    pub(crate) fn kinetic_j(&self, v: &[Vector]) -> f64 {
+    pub(crate) fn kinetic_j(&self, v: impl Iterator<Item = Vector>) -> f64 {
         let each = self.mass_kg.iter().zip(v);
         each.map(|(mass, v)| 0.5 * mass * v.norm_squared()).sum()
     }

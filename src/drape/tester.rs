@@ -152,25 +152,15 @@ fn stretch(
         area(&there, extension) - area(&back.iter().rev().copied().collect::<Vec<_>>(), extension);
     let linearity = work / (0.5 * force * extension);
     let given_lt = given_j / (0.5 * force * top);
-    let energy = "gf·cm/cm²";
-    found.push(figure(
-        format!("EMT {side}"),
-        "%",
-        [100.0 * top, 100.0 * extension],
-    ));
-    found.push(figure(format!("LT {side}"), "", [given_lt, linearity]));
-    found.push(figure(
-        format!("WT {side}"),
-        energy,
-        [given_j, work].map(|j| j / kes::N_PER_M),
-    ));
+    let name = |of: &str| format!("{of} {side}");
+    let emt = [top, extension].map(|strain| 100.0 * strain);
+    let wt = [given_j, work].map(|j| j / kes::N_PER_M);
+    found.push(figure(name("EMT"), "%", emt));
+    found.push(figure(name("LT"), "", [given_lt, linearity]));
+    found.push(figure(name("WT"), "gf·cm/cm²", wt));
     if slack > 0.0 {
-        let given = 1.0 - slack * top / given_j;
-        found.push(figure(
-            format!("RT {side}"),
-            "%",
-            [100.0 * given, 100.0 * (1.0 - lost / work)],
-        ));
+        let rt = [slack * top / given_j, lost / work].map(|lost| 100.0 * (1.0 - lost));
+        found.push(figure(name("RT"), "%", rt));
     }
     Ok(())
 }
@@ -252,12 +242,8 @@ fn shear(fabric: &Fabric, found: &mut Vec<TestedFigure>) -> Result<(), DrapeErro
     let [low, high] = [0.5_f64.to_radians(), 2.5_f64.to_radians()];
     let wide = 5.0_f64.to_radians();
     let stiffness = slope_of(&turn, [low, high]);
-    let unit = "gf/(cm·°)";
-    found.push(figure(
-        "G",
-        unit,
-        [fabric.shear_n_per_m, stiffness].map(|g| g / kes::N_PER_M_RAD),
-    ));
+    let g = [fabric.shear_n_per_m, stiffness].map(|g| g / kes::N_PER_M_RAD);
+    found.push(figure("G", "gf/(cm·°)", g));
     let [narrow, at_5] = fabric.shear_loop_n_per_m;
     for (name, given, angle) in [("2HG", narrow, low), ("2HG5", at_5, wide)] {
         if given > 0.0 {
@@ -292,13 +278,9 @@ fn bend(
     let turn = cycle(&mut patch, shape, 250.0);
     // Places that bend are two fewer than vertices along a line.
     let share = (SIDE - 1) as f64 / (SIDE - 2) as f64;
-    let (given, unit) = (fabric.bending_n_m[axis], "gf·cm²/cm");
     let stiffness = share * slope_of(&turn, [50.0, 150.0]);
-    found.push(figure(
-        format!("B {side}"),
-        unit,
-        [given, stiffness].map(|b| b / kes::N_M),
-    ));
+    let b = [fabric.bending_n_m[axis], stiffness].map(|b| b / kes::N_M);
+    found.push(figure(format!("B {side}"), "gf·cm²/cm", b));
     let width = fabric.bending_loop_n[axis];
     if width > 0.0 {
         let both = [width, share * width_of(&turn, 100.0)].map(|width| width / kes::N);
@@ -320,12 +302,9 @@ fn compress(cloth: &Compression, found: &mut Vec<TestedFigure>) {
     let work = area(&curve, most);
     let linearity = work / (0.5 * Compression::TESTER_PA * most);
     let given_wc = 0.5 * cloth.linearity() * Compression::TESTER_PA * cloth.yield_m;
+    let wc = [given_wc, work].map(|j| j / kes::N_PER_M);
     found.push(figure("LC", "", [cloth.linearity(), linearity]));
-    found.push(figure(
-        "WC",
-        "gf·cm/cm²",
-        [given_wc, work].map(|j| j / kes::N_PER_M),
-    ));
+    found.push(figure("WC", "gf·cm/cm²", wc));
     found.push(figure("T0 − TM", "mm", [1e3 * cloth.yield_m, 1e3 * most]));
 }
 

@@ -5,7 +5,7 @@
 
 use super::cloth::Cloth;
 use super::membrane::angle_of;
-use super::mesh::{Mesh, Vector};
+use super::mesh::Vector;
 use super::sheet::Sheet;
 
 impl Sheet {
@@ -79,23 +79,13 @@ impl Cloth {
     }
 }
 
-/// All that joins `reach + 1` vertices along an axis, with its width, m.
-fn along(mesh: &Mesh, axis: usize, reach: usize, mut solve: impl FnMut(usize, f64)) {
-    let [rows, columns] = mesh.spans(axis, reach);
-    for row in 0..rows {
-        for column in 0..columns {
-            solve(row * mesh.n[0] + column, mesh.width_m(axis, [row, column]));
-        }
-    }
-}
-
 /// Edges: `C = ℓ − h`, compliance `h/(K b)`.
 fn pull(sheet: &Sheet, moves: &Moves, x: &mut [Vector]) {
     let mesh = &sheet.mesh;
     for axis in 0..2 {
         let (stride, h) = (mesh.stride(axis), mesh.h[axis]);
         let whole = h / sheet.stretch[axis].tension.at_rest_n_per_m;
-        along(mesh, axis, 1, |a, width| {
+        for (_, a, width) in mesh.lines(axis, 1) {
             let b = a + stride;
             let span = x[b] - x[a];
             let length = span.norm();
@@ -103,7 +93,7 @@ fn pull(sheet: &Sheet, moves: &Moves, x: &mut [Vector]) {
                 let along = span * length.recip();
                 moves.solve(x, [(a, -along), (b, along)], (length - h, whole / width));
             }
-        });
+        }
     }
 }
 
@@ -115,13 +105,10 @@ fn shear(sheet: &Sheet, moves: &Moves, x: &mut [Vector]) {
     }
     let halves = mesh.h.map(|h| 0.5 / h);
     let compliance = 1.0 / (sheet.fabric.shear_n_per_m * mesh.h[0] * mesh.h[1]);
-    for row in 0..mesh.n[1] - 1 {
-        for column in 0..mesh.n[0] - 1 {
-            let [c00, c10, c01, c11] = mesh.corners(row * mesh.n[0] + column);
-            let (angle, far, near) = angle_of(halves, [x[c11] - x[c00], x[c10] - x[c01]]);
-            let gradient = [(c11, far), (c00, -far), (c10, near), (c01, -near)];
-            moves.solve(x, gradient, (angle, compliance));
-        }
+    for [c00, c10, c01, c11] in mesh.cells() {
+        let (angle, far, near) = angle_of(halves, [x[c11] - x[c00], x[c10] - x[c01]]);
+        let gradient = [(c11, far), (c00, -far), (c10, near), (c01, -near)];
+        moves.solve(x, gradient, (angle, compliance));
     }
 }
 
@@ -134,7 +121,7 @@ fn bend(sheet: &Sheet, moves: &Moves, x: &mut [Vector]) {
             continue;
         }
         let whole = mesh.h[axis].powi(3) / rigidity;
-        along(mesh, axis, 2, |a, width| {
+        for (_, a, width) in mesh.lines(axis, 2) {
             let (b, c) = (a + stride, a + 2 * stride);
             let bent = x[a] - x[b] * 2.0 + x[c];
             let size = bent.norm();
@@ -143,6 +130,6 @@ fn bend(sheet: &Sheet, moves: &Moves, x: &mut [Vector]) {
                 let gradient = [(a, along), (b, along * -2.0), (c, along)];
                 moves.solve(x, gradient, (size, whole / width));
             }
-        });
+        }
     }
 }

@@ -93,6 +93,7 @@ pub fn studies() -> Vec<Study> {
         stylus::STUDY,
         stylus::LIMITS,
         drape::STUDY,
+        drape::ORDERS,
         drape::STABILITY,
         #[cfg(feature = "friction")]
         friction::SPECTRA,

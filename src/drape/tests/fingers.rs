@@ -205,7 +205,8 @@ fn a_stretched_cloth_is_rubbed_more_slowly_in_its_own_millimetres() {
 #[test]
 fn a_finger_does_not_pass_through_and_comes_back_on_either_side_past_an_edge() {
     let fabric = shirting();
-    for speed in [0.1, 1.0] {
+    // Of 5 N what comes fast holds a part by friction on the slopes around it.
+    for (speed, least_n) in [(0.1, 4.9), (1.0, 3.3)] {
         let mut cloth = touched(fabric, &Pins::Frame, &[1.0], 1e-3);
         cloth.gravity = Vector::zeros();
         let deep = Vector::new(0.05, 0.05, -0.04);
@@ -213,13 +214,13 @@ fn a_finger_does_not_pass_through_and_comes_back_on_either_side_past_an_edge() {
         lead(&mut cloth, &[deep], n);
         wait(&mut cloth, 300);
         let (middle, pad) = (cloth.x[MIDDLE], apex(&cloth, 0));
-        // Pulp under 5 N yields by √(F/πk_f√(R_xR_y)) = 5.7 mm; friction on slopes holds a part.
+        // Pulp under 5 N yields by √(F/πk_f√(R_xR_y)) = 5.7 mm.
         assert!(
             pad.z > middle.z - 6.5e-3,
             "{speed}: pad {pad}, cloth {middle}"
         );
         assert!(
-            cloth.fingers()[0].press_n() > 2.5,
+            cloth.fingers()[0].press_n() > least_n,
             "{}",
             cloth.fingers()[0].press_n()
         );

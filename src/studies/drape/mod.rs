@@ -1,16 +1,19 @@
 //! A hanging cloth: how exactly each way of stepping it answers, at what cost, and what it holds.
 
 mod integrators;
+mod orders;
 mod stability;
 #[cfg(test)]
 mod tests;
 
 pub(crate) use integrators::STUDY;
+pub(crate) use orders::ORDERS;
 pub(crate) use stability::STABILITY;
 
 use std::path::Path;
 
 use super::ReportError;
+use super::readable::rms;
 use selvedge_drape::{Drape, DrapeScene, Hand, Integrator};
 
 /// A cloth that is studied: how it hangs, how stiff it is, who touches it.
@@ -38,8 +41,21 @@ impl Sample {
     fn drape(
         &self,
         tilt_deg: f64,
-        (integrator, step_s): (Integrator, Option<f64>),
+        stepped: (Integrator, Option<f64>),
     ) -> Result<Drape, ReportError> {
+        let mut drape = Drape::new(&self.scene(stepped)?, None, None)?;
+        if self.n_fingers == 0 {
+            drape.tilt(tilt_deg);
+        } else {
+            drape.place(&drape.start_hands());
+        }
+        Ok(drape)
+    }
+
+    fn scene(
+        &self,
+        (integrator, step_s): (Integrator, Option<f64>),
+    ) -> Result<DrapeScene, ReportError> {
         let Self { n, pins, .. } = self;
         let weight = 100.0 * self.density_kg_per_m2;
         // A straight line of 5 % at whatever load makes this stiffness; 1 gf/cm is 0.980665 N/m.
@@ -52,9 +68,11 @@ impl Sample {
                 )
             },
         );
+        let integrator = integrator.name();
+        let step = step_s.map_or_else(String::new, |s| format!("step_ms = {:e}\n", 1e3 * s));
         let mut text = format!(
             "name = \"Studied\"\nsize_mm = [200.0, 200.0]\ngrid = [{n}, {n}]\npins = \"{pins}\"\n\
-             air = false\n[measured]\nweight_mg_per_cm2 = {weight:e}\nemt_percent = 5.0\n\
+             air = false\nintegrator = \"{integrator}\"\n{step}[measured]\nweight_mg_per_cm2 = {weight:e}\nemt_percent = 5.0\n\
              {tension}\ng_gf_per_cm_deg = 0.5\nb_gf_cm2_per_cm = 0.1\nt0_mm = 0.5\n"
         );
         let finger = |side: &&str| {
@@ -63,14 +81,10 @@ impl Sample {
             )
         };
         text.extend(["front", "back"].iter().take(self.n_fingers).map(finger));
-        let scene = DrapeScene::from_text(&text, Path::new("studied.drape.toml"))?;
-        let mut drape = Drape::new(&scene, Some(integrator), step_s)?;
-        if self.n_fingers == 0 {
-            drape.tilt(tilt_deg);
-        } else {
-            drape.place(&drape.start_hands());
-        }
-        Ok(drape)
+        Ok(DrapeScene::from_text(
+            &text,
+            Path::new("studied.drape.toml"),
+        )?)
     }
 }
 
@@ -80,4 +94,26 @@ fn pinch(centre_mm: [f64; 3], opening_mm: f64) -> [Hand; 2] {
         centre_mm,
         opening_mm,
     }; 2]
+}
+
+/// Between vertices of two cloths of one grid, rms, mm.
+fn off_mm(a: &Drape, b: &Drape) -> f64 {
+    let apart = a
+        .places_mm()
+        .zip(b.places_mm())
+        .map(|(a, b)| distance(a, b));
+    rms(&apart.collect::<Vec<f64>>())
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3)
+        .map(|axis| (a[axis] - b[axis]).powi(2))
+        .sum::<f64>()
+        .sqrt()
+}
+
+/// Energy less the work of hands, J.
+fn left_j(drape: &mut Drape) -> f64 {
+    let [energy_j, work_j] = drape.energy_j();
+    energy_j - work_j
 }

@@ -1,5 +1,6 @@
 //! Studies of the hanging cloth keep their promises; better ways are better.
 
+use super::integrators::PRECONDITIONERS;
 use super::*;
 use crate::Row;
 use crate::tests::quick;
@@ -25,13 +26,25 @@ fn bdf2_comes_nearest_at_a_given_step_and_a_sleeping_cloth_costs_next_to_nothing
         ["awake", "asleep"].map(|way| of(way, "rest", "bdf2").cost.unwrap().cpu_s);
     assert!(asleep < 0.05 * awake, "{asleep} {awake}");
     assert_eq!(of("asleep", "rest", "bdf2").further("steps_asleep"), "400");
-    let rest: Vec<f64> = findings
-        .rows
-        .iter()
-        .filter(|row| row.method == "rest")
-        .filter_map(|row| row.error)
-        .collect();
-    assert!(rest.len() == 2 && rest[1] < 0.4 * rest[0], "{rest:?}");
+    let of_k = |method: &str, k: &str| {
+        let rows = findings.rows.iter().filter(|row| row.method == method);
+        let mut rows = rows.filter(|row| row.setting == "4.17 ms" && row.case.contains(k));
+        rows.next().unwrap().further_number("iterations").unwrap()
+    };
+    for k in ["K 1e1 N", "K 1e4 N"] {
+        let [diagonal, line] = PRECONDITIONERS.map(|name| of_k(name, k));
+        assert!(5.0 < line && line < diagonal, "{k}: {diagonal} {line}");
+    }
+}
+
+#[test]
+fn orders_are_those_of_their_methods() {
+    let findings = quick(&ORDERS, 1);
+    let broken: Vec<&Row> = findings.broken().collect();
+    assert!(broken.is_empty(), "{broken:#?}");
+    let promised = findings.rows.iter().filter(|row| row.promised.is_some());
+    assert_eq!(promised.count(), 4, "three in time, one in space");
+    assert_eq!(findings.rows.len(), 3 * 3 + 2);
 }
 
 #[test]
@@ -39,7 +52,7 @@ fn every_case_is_held_or_refused() {
     let findings = quick(&STABILITY, 1);
     let broken: Vec<&Row> = findings.broken().collect();
     assert!(broken.is_empty(), "{broken:#?}");
-    assert_eq!(findings.rows.len(), 6 * 5 * 3 * 2 * 3);
+    assert_eq!(findings.rows.len(), 7 * 5 * 3 * 2 * 3);
     assert_eq!(findings.plots.len(), 5);
     let refused = findings
         .rows

@@ -89,7 +89,7 @@ use crate::bench::preparing::Preparing;
 use crate::bench::recording::Recordings;
 use crate::bench::recovery::Recovery;
 use crate::bench::selection::Selection;
-use crate::bench::session::Hanging;
+use crate::bench::session::Hung;
 use crate::bench::settings::{Settings, own_arrays, own_libraries, own_recordings, own_work};
 use crate::bench::state::{
     DeviceState, EngineScene, Exploration, Files, InspectionCache, LibraryState, Past,
@@ -334,9 +334,8 @@ impl Bench {
     }
 
     /// What the session that is under way hangs.
-    pub(crate) fn hanging(&self) -> &Hanging {
-        let active = self.session.active.as_ref();
-        active.map_or(&Hanging::Never, |active| &active.hanging)
+    pub(crate) fn hung(&self) -> Option<&Hung> {
+        self.session.active.as_ref()?.hung.as_ref()
     }
 
     /// Whether a pane would tell what a session must not.
@@ -346,8 +345,7 @@ impl Bench {
             pane,
             Pane::Participant | Pane::Experimenter | Pane::Bridge | Pane::Analysis
         );
-        let hangs = pane == Pane::Drape && *self.hanging() != Hanging::Never;
-        self.has_session() && !is_open && !hangs
+        self.has_session() && !is_open
     }
 
     /// Whether a pane is in sight.

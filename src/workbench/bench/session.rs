@@ -12,20 +12,8 @@ pub(crate) struct SessionInSight {
     pub(crate) pseudonym: String,
     /// The log.
     pub(crate) log: PathBuf,
-    /// What hangs as a cloth, where trials are of such and one of them is at hand.
-    pub(crate) hanging: Hanging,
-}
-
-/// What a session hangs.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(crate) enum Hanging {
-    /// Its textiles lie.
-    #[default]
-    Never,
-    /// They hang, and none is at hand.
-    NotNow,
-    /// This one.
-    Textile(Hung),
+    /// What hangs as a cloth in the trial that is at hand.
+    pub(crate) hung: Option<Hung>,
 }
 
 /// A textile that a session hangs.
@@ -37,16 +25,6 @@ pub(crate) struct Hung {
     pub(crate) library: Option<PathBuf>,
     /// Whether its trial has begun: before that nothing is felt of it.
     pub(crate) is_felt: bool,
-}
-
-impl Hanging {
-    /// The textile that is at hand.
-    pub(crate) fn textile(&self) -> Option<&Hung> {
-        match self {
-            Self::Never | Self::NotNow => None,
-            Self::Textile(hung) => Some(hung),
-        }
-    }
 }
 
 /// What people call a design.

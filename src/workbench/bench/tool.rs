@@ -35,7 +35,12 @@ pub(crate) struct PaneContext<'a> {
     pub(crate) commands: &'a mut Commands,
     /// Where the pointer feels, if a pane showed such a place.
     pub(crate) ground: &'a mut Option<PointerGround>,
+    /// The tool that another one shows within its own view, if one is to be.
+    pub(crate) guest: &'a mut Guest,
 }
+
+/// A tool that was taken out of the list, and its place there.
+pub(crate) type Guest = Option<(usize, Box<dyn Tool>)>;
 
 /// A tool of the window.
 pub(crate) trait Tool: Any {
@@ -170,6 +175,19 @@ impl Tools {
     /// The tool that shows a pane.
     pub(crate) fn showing(&mut self, pane: Pane) -> Option<&mut (dyn Tool + 'static)> {
         self.iter_mut().find(|tool| tool.panes().contains(&pane))
+    }
+
+    /// Takes out the tool that shows a pane.
+    pub(crate) fn take_out(&mut self, pane: Pane) -> Guest {
+        let at = self.iter().position(|tool| tool.panes().contains(&pane))?;
+        Some((at, self.0.remove(at)))
+    }
+
+    /// Puts a tool back that was taken out.
+    pub(crate) fn put_back(&mut self, guest: Guest) {
+        if let Some((at, tool)) = guest {
+            self.0.insert(at, tool);
+        }
     }
 
     /// The tool of this type.

@@ -10,7 +10,7 @@ use crate::bench::Bench;
 use crate::bench::command::{Command, Commands, ShowCommand};
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
-use crate::bench::tool::PaneContext;
+use crate::bench::tool::{Guest, PaneContext};
 use crate::bench::view::{Hovered, SceneView};
 use crate::kit::pane::frame_as_armed;
 use crate::kit::theme::Palette;
@@ -46,9 +46,15 @@ pub(crate) fn show(window: &mut Workbench, ui: &mut Ui) -> Commands {
         show_bar(window, ui, &scene, &mut commands);
     }
     let central = CentralPanel::default().frame(Frame::new());
-    let panes = central.show(ui, |ui| show_panes(window, ui, &scene, &mut commands));
+    // What a session hangs is shown where its participant looks.
+    let hangs = window.bench.hung().is_some();
+    let mut guest = hangs.then(|| window.tools.take_out(Pane::Drape)).flatten();
+    let panes = central.show(ui, |ui| {
+        show_panes(window, ui, &scene, (&mut commands, &mut guest))
+    });
     let ground = panes.inner;
-    let apart = show_windows(window, ui, &scene, &mut commands);
+    let apart = show_windows(window, ui, &scene, (&mut commands, &mut guest));
+    window.tools.put_back(guest);
     show_overlays(window, ui, &mut commands);
     // Last, so that it tells of what the pointer rests on in this frame.
     let mut foot = ui.new_child(UiBuilder::new().max_rect(line.inner));
@@ -71,7 +77,7 @@ fn show_windows(
     window: &mut Workbench,
     ui: &Ui,
     scene: &SceneView,
-    commands: &mut Commands,
+    (commands, guest): (&mut Commands, &mut Guest),
 ) -> Option<PointerGround> {
     let mut ground = None;
     let mut context = PaneContext {
@@ -79,6 +85,7 @@ fn show_windows(
         scene,
         commands,
         ground: &mut ground,
+        guest,
     };
     for tool in window.tools.iter_mut() {
         tool.windows(ui.ctx(), &mut context);
@@ -118,6 +125,7 @@ fn show_bar(window: &mut Workbench, ui: &mut Ui, scene: &SceneView, commands: &m
             scene,
             commands,
             ground: &mut None,
+            guest: &mut None,
         };
         window.shell.bar.ui(ui, &mut context);
     });
@@ -128,7 +136,7 @@ fn show_panes(
     window: &mut Workbench,
     ui: &mut Ui,
     scene: &SceneView,
-    commands: &mut Commands,
+    (commands, guest): (&mut Commands, &mut Guest),
 ) -> Option<PointerGround> {
     window.arrange(ui.max_rect().size());
     let mut tree = std::mem::replace(&mut window.shell.tree, Tree::empty(Id::NULL));
@@ -139,6 +147,7 @@ fn show_panes(
             scene,
             commands,
             ground: &mut ground,
+            guest,
         },
         tools: &mut window.tools,
         n_drawn: &mut window.shell.n_drawn,

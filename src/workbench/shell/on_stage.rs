@@ -67,6 +67,7 @@ impl Workbench {
                 scene: &scene,
                 commands: &mut commands,
                 ground: &mut ground,
+                guest: &mut None,
             },
         );
         let stop = face.stop_area().map(|area| area * ui.pixels_per_point());

@@ -93,6 +93,14 @@ impl Seconds<'_> {
         shown.map(|frame| [frame.t_s, value(frame)]).collect()
     }
 
+    /// Its number where several hang.
+    fn name(&self, nth: usize) -> String {
+        if self.is_one() {
+            return String::new();
+        }
+        (nth + 1).to_string()
+    }
+
     /// A line for each cloth, by the place of its first row in a sample.
     fn by_cloth(&self, value: impl Fn(&[f64; 9]) -> f64) -> Vec<Series> {
         let n_rows = self.n_fingers.max(1);
@@ -100,7 +108,7 @@ impl Seconds<'_> {
         cloths
             .map(|(nth, ink)| {
                 let of = |sample: &Sample| sample.rows.get(nth * n_rows).map_or(0.0, &value);
-                Self::line(&(nth + 1).to_string(), ink, &self.of_samples(of))
+                Self::line(&self.name(nth), ink, &self.of_samples(of))
             })
             .collect()
     }
@@ -134,8 +142,8 @@ impl Seconds<'_> {
         if !self.is_one() {
             let cloths = INKS.into_iter().take(self.titles.len()).enumerate();
             let lines = cloths.map(|(nth, ink)| {
-                let of = |frame: &Frame| frame.cloths.get(nth).map_or(0.0, |one| one.mean_um(0)[1]);
-                Self::line(&(nth + 1).to_string(), ink, &self.of_frames(of))
+                let of = |frame: &Frame| mean_um(frame, nth, 0)[1];
+                Self::line(&self.name(nth), ink, &self.of_frames(of))
             });
             return self.chart("First finger, 320 Hz", y, lines.collect());
         }
@@ -145,12 +153,7 @@ impl Seconds<'_> {
                 .into_iter()
                 .enumerate()
             {
-                let of = |frame: &Frame| {
-                    frame
-                        .cloths
-                        .first()
-                        .map_or(0.0, |one| one.mean_um(finger)[band])
-                };
+                let of = |frame: &Frame| mean_um(frame, 0, finger)[band];
                 let name = if finger == 0 { name } else { "" };
                 lines.push(Self::line(name, (ink, style), &self.of_frames(of)));
             }
@@ -162,16 +165,6 @@ impl Seconds<'_> {
     fn energies(&self) -> Chart {
         let lines = self.by_cloth(|row| 1e3 * row[ENERGY]);
         let y = Axis::linear("energy, mJ");
-        let lines = if self.is_one() {
-            let unnamed = lines.into_iter();
-            let unnamed = unnamed.map(|line| Series {
-                name: String::new(),
-                ..line
-            });
-            unnamed.collect()
-        } else {
-            lines
-        };
         Chart {
             y,
             ..self.chart("Energy of cloth and fingers", Axis::default(), lines)
@@ -184,16 +177,10 @@ impl Seconds<'_> {
         let n_rows = self.n_fingers.max(1);
         let mut columns = Columns::default();
         if !self.is_one() {
-            let names = self.samples.iter().flat_map(|sample| {
-                let rows = 0..sample.rows.len();
-                rows.map(|row| {
-                    self.titles
-                        .get(row / n_rows)
-                        .map_or("", |title| *title)
-                        .to_owned()
-                })
-            });
-            columns = columns.with("cloth", names.collect::<Vec<String>>());
+            let title = |row: usize| self.titles.get(row / n_rows).copied().unwrap_or_default();
+            let rows = self.samples.iter().flat_map(|sample| 0..sample.rows.len());
+            let names: Vec<String> = rows.map(|row| title(row).to_owned()).collect();
+            columns = columns.with("cloth", names);
         }
         for (of, name) in Drape::FORCE_COLUMNS.into_iter().enumerate() {
             let rows = self.samples.iter().flat_map(|sample| &sample.rows);
@@ -201,6 +188,11 @@ impl Seconds<'_> {
         }
         columns
     }
+}
+
+fn mean_um(frame: &Frame, cloth: usize, finger: usize) -> [f64; 2] {
+    let cloth = frame.cloths.get(cloth);
+    cloth.map_or([0.0; 2], |cloth| cloth.mean_um(finger))
 }
 
 fn force(row: &[f64; 9]) -> f64 {

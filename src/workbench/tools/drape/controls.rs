@@ -21,96 +21,59 @@ const NAME: f32 = 52.0;
 /// Width of a list, points.
 const LIST: f32 = 128.0;
 
-/// A figure that a slider changes: its key, name, ends, digits, unit, decades if uneven, tip.
-struct Dial {
-    key: &'static str,
-    name: &'static str,
-    ends: [f64; 2],
-    shown: (usize, &'static str),
-    decades: Option<f64>,
-    tip: &'static str,
-}
-
-const fn dial(
-    (key, name): (&'static str, &'static str),
-    ends: [f64; 2],
-    shown: (usize, &'static str),
-    decades: Option<f64>,
-    tip: &'static str,
-) -> Dial {
-    Dial {
-        key,
-        name,
-        ends,
-        shown,
-        decades,
-        tip,
-    }
-}
+/// A figure that a slider changes: its key and name; ends, digits, unit, decades if uneven; what it
+/// does.
+type Dial = (
+    (&'static str, &'static str),
+    ([f64; 2], usize, &'static str, Option<f64>),
+    &'static str,
+);
 
 /// All of them, in the order of the testers.
 const DIALS: [Dial; 9] = [
-    dial(
+    (
         ("emt_percent", "Stretch EMT"),
-        [0.5, 50.0],
-        (1, "%"),
-        Some(2.0),
+        ([0.5, 50.0], 1, "%", Some(2.0)),
         "Strain of the yarns under 500 gf/cm; the mean of warp and weft, whose ratio stays",
     ),
-    dial(
+    (
         ("lt", "Linearity LT"),
-        [0.3, 1.2],
-        (2, ""),
-        None,
+        ([0.3, 1.2], 2, "", None),
         "1: force grows evenly with strain; below, soft at first",
     ),
-    dial(
+    (
         ("g_gf_per_cm_deg", "Shear G"),
-        [0.02, 10.0],
-        (2, "gf/cm°"),
-        Some(2.7),
+        ([0.02, 10.0], 2, "gf/cm°", Some(2.7)),
         "Shear stiffness: low lets the cloth fall in folds across its yarns",
     ),
-    dial(
+    (
         ("2hg_gf_per_cm", "Loss 2HG"),
-        [0.0, 20.0],
-        (2, "gf/cm"),
-        Some(3.0),
+        ([0.0, 20.0], 2, "gf/cm", Some(3.0)),
         "Width of the loop of shear at 0.5°: what yarns lose by rubbing",
     ),
-    dial(
+    (
         ("b_gf_cm2_per_cm", "Bending B"),
-        [0.002, 5.0],
-        (3, "gf cm"),
-        Some(3.4),
+        ([0.002, 5.0], 3, "gf cm", Some(3.4)),
         "Bending rigidity a width, gf·cm²/cm: low drapes, high stands off",
     ),
-    dial(
+    (
         ("2hb_gf_cm_per_cm", "Loss 2HB"),
-        [0.0, 2.0],
-        (3, "gf"),
-        Some(3.0),
+        ([0.0, 2.0], 3, "gf", Some(3.0)),
         "Width of the loop of bending, gf·cm/cm: high keeps creases",
     ),
-    dial(
+    (
         ("weight_mg_per_cm2", "Weight"),
-        [2.0, 100.0],
-        (1, "mg/cm²"),
-        Some(1.7),
+        ([2.0, 100.0], 1, "mg/cm²", Some(1.7)),
         "Mass an area: 10 mg/cm² are 100 g/m²",
     ),
-    dial(
+    (
         ("t0_mm", "Thickness T0"),
-        [0.1, 5.0],
-        (2, "mm"),
-        Some(1.7),
+        ([0.1, 5.0], 2, "mm", Some(1.7)),
         "Thickness without pressure",
     ),
-    dial(
+    (
         ("friction", "Friction"),
-        [0.0, 1.5],
-        (2, ""),
-        None,
+        ([0.0, 1.5], 2, "", None),
         "Of a finger on the cloth: what it holds before it slips",
     ),
 ];
@@ -188,23 +151,12 @@ fn show_row_of_cloths(ui: &mut Ui, draping: &mut Draping, context: &PaneContext<
 /// A textile that does not hang yet: one that is selected in the library, or the next of it.
 fn next_textile(draping: &Draping, context: &PaneContext<'_>) -> ClothChoice {
     let bench = &*context.bench;
-    let hang: Vec<&str> = draping
-        .motion
-        .facts
-        .cloths
-        .iter()
-        .filter_map(|c| c.key.as_deref())
-        .collect();
+    let cloths = draping.motion.facts.cloths.iter();
+    let hang: Vec<&str> = cloths.filter_map(|cloth| cloth.key.as_deref()).collect();
     let selected = bench.library.selection.0.iter().cloned();
-    let items = bench
-        .library
-        .view
-        .items()
-        .iter()
-        .map(|item| item.id.clone());
-    let key = selected
-        .chain(items)
-        .find(|key| !hang.contains(&key.as_str()));
+    let items = bench.library.view.items().iter();
+    let mut keys = selected.chain(items.map(|item| item.id.clone()));
+    let key = keys.find(|key| !hang.contains(&key.as_str()));
     ClothChoice {
         textile: key.map(|key| Draping::textile(bench, &key)),
         changes: Vec::new(),
@@ -270,11 +222,12 @@ fn show_figures(ui: &mut Ui, draping: &mut Draping) {
 }
 
 fn show_dial(ui: &mut Ui, dial: &Dial, facts: &ClothFacts, choice: &mut ClothChoice) {
-    let resting = facts.unchanged.figure(dial.key).unwrap_or(0.0);
-    let changed = choice.changes.iter().position(|(key, _)| *key == dial.key);
+    let &((key, name), (ends, digits, unit, decades), tip) = dial;
+    let resting = facts.unchanged.figure(key).unwrap_or(0.0);
+    let changed = choice.changes.iter().position(|(known, _)| *known == key);
     let now = changed.map_or(resting, |at| choice.changes[at].1);
-    let even = Scale::even(dial.ends, resting, 0.01, dial.shown);
-    let scale = match dial.decades {
+    let even = Scale::even(ends, resting, 0.01, (digits, unit));
+    let scale = match decades {
         Some(decades) => Scale {
             curve: Curve::Decades(decades),
             ..even
@@ -282,9 +235,9 @@ fn show_dial(ui: &mut Ui, dial: &Dial, facts: &ClothFacts, choice: &mut ClothCho
         None => even,
     };
     let ink = Palette::in_ui(ui).text;
-    let (new, response) = slider_row(ui, dial.name, ink, scale, now);
-    tell(&response, dial.tip);
-    let Some(new) = new.map(|new| new.clamp(dial.ends[0], dial.ends[1])) else {
+    let (new, response) = slider_row(ui, name, ink, scale, now);
+    tell(&response, tip);
+    let Some(new) = new.map(|new| new.clamp(ends[0], ends[1])) else {
         return;
     };
     // A slider at its resting value changes nothing.
@@ -295,7 +248,7 @@ fn show_dial(ui: &mut Ui, dial: &Dial, facts: &ClothFacts, choice: &mut ClothCho
         }
         Some(at) => choice.changes[at].1 = new,
         None if is_own => {}
-        None => choice.changes.push((dial.key, new)),
+        None => choice.changes.push((key, new)),
     }
 }
 

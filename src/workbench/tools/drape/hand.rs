@@ -76,11 +76,8 @@ impl Hands {
         {
             let mut recorded = hands.clone();
             path.at(looped(path, frame.t_s), &mut recorded);
-            hands
-                .iter_mut()
-                .zip(recorded)
-                .skip(1)
-                .for_each(|(hand, own)| *hand = own);
+            hands.truncate(1);
+            hands.extend(recorded.into_iter().skip(1));
         }
         Lead::Towards(hands)
     }

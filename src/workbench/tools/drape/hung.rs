@@ -59,14 +59,40 @@ pub(crate) enum Second {
     Recorded,
 }
 
-/// All that hangs.
+/// What was chosen: every change is a step that can be taken back.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Wanted {
+pub(crate) struct Chosen {
     pub(crate) base: Base,
-    /// One or more, side by side.
+    /// Side by side; there is always one.
     pub(crate) cloths: Vec<ClothChoice>,
-    /// Whether both fingers are in front.
-    pub(crate) is_one_sided: bool,
+    pub(crate) second: Second,
+}
+
+impl Default for Chosen {
+    fn default() -> Self {
+        Self {
+            base: Base::default(),
+            cloths: vec![ClothChoice::default()],
+            second: Second::default(),
+        }
+    }
+}
+
+impl Chosen {
+    /// What was changed to get here.
+    pub(crate) fn step_from(&self, before: &Self) -> &'static str {
+        let textiles = |chosen: &Self| -> Vec<_> {
+            let cloths = chosen.cloths.iter();
+            cloths.map(|cloth| cloth.textile.clone()).collect()
+        };
+        match () {
+            () if self.base != before.base => "scene",
+            () if self.cloths.len() != before.cloths.len() => "cloths side by side",
+            () if textiles(self) != textiles(before) => "textile",
+            () if self.second != before.second => "second finger",
+            () => "figures of the cloth",
+        }
+    }
 }
 
 /// What leads the fingers.
@@ -81,7 +107,7 @@ pub(crate) enum Lead {
 /// What the window asks for.
 #[derive(Debug, Clone)]
 pub(crate) struct Ask {
-    pub(crate) wanted: Arc<Wanted>,
+    pub(crate) wanted: Arc<Chosen>,
     pub(crate) lead: Lead,
     /// How much time is to pass in the scene, s.
     pub(crate) for_s: f64,
@@ -141,19 +167,6 @@ pub(crate) struct Frame {
 pub(crate) struct Sample {
     pub(crate) t_s: f64,
     pub(crate) rows: Vec<[f64; 9]>,
-}
-
-/// What came of what was asked for.
-#[derive(Debug)]
-pub(crate) struct Answer {
-    pub(crate) facts: Arc<Facts>,
-    pub(crate) frame: Arc<Frame>,
-    pub(crate) samples: Vec<Sample>,
-    pub(crate) n_restarts: u64,
-    /// Whether all sleeps: nothing comes of asking for the same again.
-    pub(crate) is_asleep: bool,
-    /// Whether the path that was followed has ended.
-    pub(crate) is_over: bool,
 }
 
 impl ClothFrame {

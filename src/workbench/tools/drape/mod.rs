@@ -1,8 +1,8 @@
 //! A hanging cloth under two fingers: touched by pointer or keys, or by hands that were recorded.
 //!
 //! ```text
-//! scene, textiles, figures ─▶ Wanted ─┐                     ┌▶ paint (3-D), chart ─▶ view, export
-//! pointer, keys ─▶ grasp ─▶ Lead ─────┴▶ stepper (a thread) ┴▶ motion: the last seconds
+//! scene, textiles, figures ─▶ Chosen ─┐                     ┌▶ paint (3-D), chart ─▶ view, export
+//! pointer, keys ─▶ grasp ─▶ Lead ─────┴▶ stepper (background) ┴▶ motion: the last seconds
 //! ```
 //!
 //! Nothing is stepped before the pane is looked at, nor while everything rests.
@@ -39,7 +39,7 @@ use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::framed;
 use crate::tools::drape::chart::Seconds;
 use crate::tools::drape::hand::Hands;
-use crate::tools::drape::hung::{Base, ClothChoice, OtherTextile, Second, Wanted};
+use crate::tools::drape::hung::{Base, Chosen, ClothChoice, OtherTextile};
 use crate::tools::drape::look::Look;
 use crate::tools::drape::motion::Motion;
 use crate::tools::drape::through::ThroughDevice;
@@ -50,50 +50,6 @@ pub(crate) const MAX_CLOTHS: usize = 5;
 const CHART_PX: f64 = 200.0;
 /// Why there is nothing to export.
 const NOTHING: &str = "There is nothing to export yet: touch the cloth in the Drape pane";
-
-/// What was chosen: every change is a step that can be taken back.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Chosen {
-    pub(crate) base: Base,
-    /// Side by side; there is always one.
-    pub(crate) cloths: Vec<ClothChoice>,
-    pub(crate) second: Second,
-}
-
-impl Default for Chosen {
-    fn default() -> Self {
-        Self {
-            base: Base::default(),
-            cloths: vec![ClothChoice::default()],
-            second: Second::default(),
-        }
-    }
-}
-
-impl Chosen {
-    fn wanted(&self) -> Wanted {
-        Wanted {
-            base: self.base.clone(),
-            cloths: self.cloths.clone(),
-            is_one_sided: self.second == Second::Beside,
-        }
-    }
-
-    /// What was changed to get here.
-    fn step_from(&self, before: &Self) -> &'static str {
-        let textiles = |chosen: &Self| -> Vec<_> {
-            let cloths = chosen.cloths.iter();
-            cloths.map(|cloth| cloth.textile.clone()).collect()
-        };
-        match () {
-            () if self.base != before.base => "scene",
-            () if self.cloths.len() != before.cloths.len() => "cloths side by side",
-            () if textiles(self) != textiles(before) => "textile",
-            () if self.second != before.second => "second finger",
-            () => "figures of the cloth",
-        }
-    }
-}
 
 /// The tool.
 #[derive(Default)]
@@ -107,13 +63,7 @@ pub(crate) struct Draping {
     /// What the user had chosen, while a session hangs its own.
     put_by: Option<Chosen>,
     /// What was asked for last.
-    wanted: Arc<Wanted>,
-}
-
-impl Default for Wanted {
-    fn default() -> Self {
-        Chosen::default().wanted()
-    }
+    wanted: Arc<Chosen>,
 }
 
 impl Draping {
@@ -142,9 +92,8 @@ impl Draping {
 
     /// Lets the scene go on: to be called while the pane is in sight.
     fn follow(&mut self, bench: &Bench) {
-        let wanted = self.chosen.wanted();
-        if *self.wanted != wanted {
-            self.wanted = Arc::new(wanted);
+        if *self.wanted != self.chosen {
+            self.wanted = Arc::new(self.chosen.clone());
         }
         self.hands.take_read(bench);
         self.take_answers();
@@ -160,7 +109,7 @@ impl Draping {
 
     /// Hangs what a session presents, and afterwards what hung before.
     fn follow_session(&mut self, bench: &Bench) {
-        let hung = bench.hanging().textile().map(|hung| Chosen {
+        let hung = bench.hung().map(|hung| Chosen {
             cloths: vec![ClothChoice {
                 textile: Some(OtherTextile {
                     key: hung.id.clone(),
@@ -223,14 +172,11 @@ impl Draping {
     /// The last seconds, to be drawn.
     pub(crate) fn seconds(&self) -> Seconds<'_> {
         let facts = &self.motion.facts;
+        let titles = facts.cloths.iter().map(|cloth| cloth.title.as_str());
         Seconds {
             samples: &self.motion.samples,
             frames: &self.motion.frames,
-            titles: facts
-                .cloths
-                .iter()
-                .map(|cloth| cloth.title.as_str())
-                .collect(),
+            titles: titles.collect(),
             n_fingers: facts.hands.len(),
             looked_at_s: self.look.looked_at_s,
         }
@@ -304,20 +250,13 @@ impl Tool for Draping {
         if sheet.n_rows() == 0 {
             return Err(NOTHING);
         }
-        let rows = seconds
-            .charts()
-            .into_iter()
-            .map(|chart| row(chart, CHART_PX));
+        let charts = seconds.charts().into_iter();
+        let rows = charts.map(|chart| row(chart, CHART_PX));
         let note = "A simulated cloth; forces on the hand, energy of cloth and fingers. Broken \
                     lines: the second finger.";
         let title = "Hanging cloth under two fingers".to_owned();
-        Ok(Exported::new(
-            title,
-            sheet,
-            rows.collect(),
-            note,
-            self.origin(),
-        ))
+        let (rows, origin) = (rows.collect(), self.origin());
+        Ok(Exported::new(title, sheet, rows, note, origin))
     }
 
     fn known_path(&self, purpose: Purpose) -> Option<PathBuf> {

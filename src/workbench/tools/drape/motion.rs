@@ -1,17 +1,20 @@
 //! The cloths' motion as the window knows it: what was asked for, what came of it lately, and how
 //! fast that goes beside life.
+//!
+//! They are stepped in the background while the window goes on. One thing is asked for at a time, so
+//! that nothing piles up: who cannot keep up runs slower than life.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+use crate::bench::background::{Task, finished};
 use crate::bench::{Bench, FRAME};
-use crate::tools::drape::hung::{Answer, Ask, Facts, Frame, Lead, Sample, Wanted};
-use crate::tools::drape::stepper::Stepper;
+use crate::tools::drape::hung::{Ask, Chosen, Facts, Frame, Lead, Sample};
+use crate::tools::drape::stepper::Hanging;
+use selvedge_foundation::progress::Progress;
 
 /// The most time that is asked for at once, s: who is slower is slower than life.
 const MAX_ASK_S: f64 = 0.05;
-/// Asks that may be under way: the next waits while one is done.
-const MAX_ASKS: u32 = 2;
 /// What is remembered, s.
 const KEPT_S: f64 = 20.0;
 /// Over what time the pace is told, s, and below which share of life it is.
@@ -21,7 +24,9 @@ const SLOW: f64 = 0.95;
 /// The motion.
 #[derive(Default)]
 pub(crate) struct Motion {
-    stepper: Stepper,
+    /// All that hangs, while it is not being stepped.
+    hanging: Box<Hanging>,
+    stepping: Option<Task<(Box<Hanging>, Vec<Sample>)>>,
     pub(crate) facts: Arc<Facts>,
     /// The last seconds.
     pub(crate) frames: VecDeque<Arc<Frame>>,
@@ -29,9 +34,8 @@ pub(crate) struct Motion {
     pub(crate) n_restarts: u64,
     /// Those of what came last.
     n_restarted: u64,
-    n_asked: u32,
     /// What was asked for last, while nothing more comes of it.
-    rests_with: Option<(Arc<Wanted>, Vec<selvedge_drape::Hand>)>,
+    rests_with: Option<(Arc<Chosen>, Vec<selvedge_drape::Hand>)>,
     is_resting: bool,
     pub(crate) is_over: bool,
     pace: Pace,
@@ -52,92 +56,80 @@ impl Motion {
         self.is_over = false;
     }
 
-    /// Takes what came; says whether that was anything.
-    pub(crate) fn poll(&mut self) -> bool {
-        let mut came = false;
-        while let Some(answer) = self.stepper.poll() {
-            self.take(answer);
-            came = true;
+    /// Takes what came.
+    pub(crate) fn poll(&mut self) {
+        match finished(&mut self.stepping) {
+            Some(Ok((hanging, samples))) => {
+                self.hanging = hanging;
+                self.take(samples);
+            }
+            // What broke off is lost: it is hung anew.
+            Some(Err(why)) => {
+                self.facts = Arc::new(Facts {
+                    refused: Some(why),
+                    ..Facts::default()
+                });
+            }
+            None => {}
         }
-        came
     }
 
     /// Lets the scene go on by the time since it was last asked to, if anything comes of that.
-    pub(crate) fn follow(&mut self, bench: &Bench, wanted: &Arc<Wanted>, lead: Lead) {
+    pub(crate) fn follow(&mut self, bench: &Bench, wanted: &Arc<Chosen>, lead: Lead) {
         let ctx = &bench.ctx;
-        if matches!(self.stepper, Stepper::Idle) {
-            match Stepper::start(ctx, bench.is_stepped()) {
-                Ok(stepper) => self.stepper = stepper,
-                Err(error) => return self.refuse(format!("no thread: {error}; try again")),
-            }
-        }
         let hands = match &lead {
             Lead::Towards(hands) => hands.clone(),
             Lead::Along(_) => Vec::new(),
         };
         let is_same = self.rests_with.as_ref() == Some(&(Arc::clone(wanted), hands.clone()));
         let is_still = self.is_resting || self.is_over && hands.is_empty();
-        if is_same && is_still && self.n_asked == 0 && self.n_restarts == self.n_restarted {
+        if is_same && is_still && !self.is_under_way() && self.n_restarts == self.n_restarted {
             self.pace = Pace::default();
             return;
         }
         ctx.request_repaint_after(FRAME);
-        if self.n_asked == MAX_ASKS {
+        if self.is_under_way() {
             return;
         }
         let for_s = self.pace.grant(ctx.input(|input| input.time));
         self.rests_with = Some((Arc::clone(wanted), hands));
-        self.n_asked += 1;
-        let answer = self.stepper.ask(Ask {
+        let ask = Ask {
             wanted: Arc::clone(wanted),
             lead,
             for_s,
             n_restarts: self.n_restarts,
-        });
-        if let Some(answer) = answer {
-            self.take(answer);
-        }
+        };
+        let mut hanging = std::mem::take(&mut self.hanging);
+        let step = move |_: &mut Progress<'_>| {
+            let samples = hanging.go_on(&ask);
+            Ok((hanging, samples))
+        };
+        self.stepping = Some(bench.executor.start("selvedge-drape", step));
     }
 
-    fn take(&mut self, answer: Answer) {
-        self.n_asked = self.n_asked.saturating_sub(1);
-        let begins_anew = self
-            .frames
-            .back()
-            .is_some_and(|last| answer.frame.t_s < last.t_s);
-        if self.n_restarted != answer.n_restarts || begins_anew {
-            self.n_restarted = answer.n_restarts;
+    fn take(&mut self, samples: Vec<Sample>) {
+        let (hanging, frame) = (&self.hanging, self.hanging.frame());
+        let begins_anew = self.frames.back().is_some_and(|last| frame.t_s < last.t_s);
+        if self.n_restarted != hanging.n_restarts || begins_anew {
+            self.n_restarted = hanging.n_restarts;
             self.frames.clear();
             self.samples.clear();
         }
-        let from_s = answer.frame.t_s - KEPT_S;
-        self.facts = answer.facts;
-        self.is_resting = answer.is_asleep;
-        self.is_over = answer.is_over;
-        self.frames.push_back(answer.frame);
-        self.samples.extend(answer.samples);
-        while self.frames.front().is_some_and(|frame| frame.t_s < from_s) {
-            self.frames.pop_front();
-        }
-        while self
-            .samples
-            .front()
-            .is_some_and(|sample| sample.t_s < from_s)
-        {
-            self.samples.pop_front();
-        }
-    }
-
-    fn refuse(&mut self, why: String) {
-        self.facts = Arc::new(Facts {
-            refused: Some(why),
-            ..Facts::default()
-        });
+        let from_s = frame.t_s - KEPT_S;
+        self.facts = Arc::clone(&hanging.facts);
+        self.is_resting = hanging.is_asleep();
+        self.is_over = hanging.is_over;
+        self.frames.push_back(Arc::new(frame));
+        self.samples.extend(samples);
+        let old = self.frames.partition_point(|frame| frame.t_s < from_s);
+        self.frames.drain(..old);
+        let old = self.samples.partition_point(|sample| sample.t_s < from_s);
+        self.samples.drain(..old);
     }
 
     /// Whether something is still to come.
     pub(crate) fn is_under_way(&self) -> bool {
-        self.n_asked > 0
+        self.stepping.is_some()
     }
 
     /// The instant at a time, or the last one.
@@ -151,11 +143,9 @@ impl Motion {
 
     /// How fast it goes beside life, if slower.
     pub(crate) fn slower_than_life(&self) -> Option<f64> {
-        let [passed_s, granted_s] = self
-            .pace
-            .asks
-            .iter()
-            .fold([0.0; 2], |sum, ask| [sum[0] + ask[1], sum[1] + ask[2]]);
+        let asks = self.pace.asks.iter();
+        let [passed_s, granted_s] =
+            asks.fold([0.0; 2], |sum, ask| [sum[0] + ask[1], sum[1] + ask[2]]);
         let share = granted_s / passed_s;
         (passed_s > 0.5 * PACE_S && share < SLOW).then_some(share)
     }

@@ -10,10 +10,12 @@ use crate::kit::amplitude::AmplitudeScale;
 use crate::kit::swatch::ClothPicture;
 use crate::kit::theme::colour_map::ColourMap;
 use crate::kit::theme::{self, Palette};
+use crate::kit::widgets::relief3d::mesh::lit;
+use crate::kit::widgets::text::paint_quiet;
 use crate::tools::drape::camera::Sight;
 use crate::tools::drape::hung::ClothFrame;
 use selvedge_drape::Pad;
-use selvedge_foundation::numerics::{to_byte, to_single};
+use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity::{fixed, with_unit};
 
 /// Towards the light as the viewer has it: from the upper left, before the cloth.
@@ -47,22 +49,16 @@ pub(crate) struct Dress<'a> {
 /// Paints all of it.
 pub(crate) fn cloth(painter: &Painter, sight: &Sight, cloth: &ClothFrame, dress: &Dress<'_>) {
     let face = if sight.sees_face() { 1.0 } else { -1.0 };
-    let fingers = || {
-        cloth
-            .pads
-            .iter()
-            .zip(&cloth.fingers)
-            .zip(&cloth.amplitudes_um)
-    };
-    for ((pad, ..), amplitudes) in fingers().filter(|((pad, _), _)| pad.side * face < 0.0) {
-        paint_pad(painter, sight, (pad, amplitudes), dress);
+    let pads = || cloth.pads.iter().zip(&cloth.amplitudes_um);
+    for pad in pads().filter(|(pad, _)| pad.side * face < 0.0) {
+        paint_pad(painter, sight, pad, dress);
     }
     painter.add(Shape::mesh(mesh(sight, cloth, dress)));
     paint_bar(painter, sight, cloth, dress);
-    for ((pad, ..), amplitudes) in fingers().filter(|((pad, _), _)| pad.side * face >= 0.0) {
-        paint_pad(painter, sight, (pad, amplitudes), dress);
+    for pad in pads().filter(|(pad, _)| pad.side * face >= 0.0) {
+        paint_pad(painter, sight, pad, dress);
     }
-    for ((pad, felt), _) in fingers() {
+    for (pad, felt) in cloth.pads.iter().zip(&cloth.fingers) {
         paint_force(painter, sight, pad, felt.force_n, dress);
     }
 }
@@ -148,12 +144,6 @@ fn brightness(sight: &Sight, cloth: &ClothFrame, vertex: usize) -> f32 {
     let facing = normal.iter().zip(LIGHT).map(|(n, l)| n * l).sum::<f32>() / length;
     let facing = if normal[2] < 0.0 { -facing } else { facing };
     AMBIENT + (1.0 - AMBIENT) * 1.25 * facing.max(0.0)
-}
-
-fn lit(colour: Color32, share: f32) -> Color32 {
-    let [r, g, b, _] = colour.to_array();
-    let [r, g, b] = [r, g, b].map(|c| to_byte(f64::from(c) * f64::from(share)));
-    Color32::from_rgb(r, g, b)
 }
 
 /// The bar that the upper edge hangs on, if it does.
@@ -261,24 +251,11 @@ pub(crate) fn strain_bar(painter: &Painter, bar: Rect, dress: &Dress<'_>, most: 
     crate::kit::widgets::bar::colour_bar(painter, bar, |share| dress.map.colour(share));
     let percent = 100.0 * f64::from(most);
     let decimals = usize::from(percent < 1.0);
+    let ink = dress.palette.dim;
     for (y, value) in [(bar.top() + 4.0, percent), (bar.bottom() - 4.0, 0.0)] {
-        let at = pos2(bar.right() + 7.0, y);
-        let digits = fixed(value, decimals);
-        painter.text(
-            at,
-            Align2::LEFT_CENTER,
-            digits,
-            theme::small_number(),
-            dress.palette.dim,
-        );
+        let (at, font) = (pos2(bar.right() + 7.0, y), theme::small_number());
+        painter.text(at, Align2::LEFT_CENTER, fixed(value, decimals), font, ink);
     }
     let unit_at = pos2(bar.left(), bar.top() - 11.0);
-    let words = "strain, %";
-    painter.text(
-        unit_at,
-        Align2::LEFT_CENTER,
-        words,
-        theme::small(),
-        dress.palette.dim,
-    );
+    paint_quiet(painter, unit_at, Align2::LEFT_CENTER, "strain, %");
 }

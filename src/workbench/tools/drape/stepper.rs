@@ -1,17 +1,11 @@
-//! Cloths in motion, on a thread of their own: the window asks for some time to pass and goes on;
-//! what came of it is there in a later frame.
+//! Cloths in motion: so much time is asked to pass, and something comes of it.
 //!
-//! One thing is asked for at a time, so that nothing piles up: who cannot keep up runs slower than
-//! life. Reads no clock: the same asks give the same answers.
+//! Reads no clock: the same asks give the same answers.
 
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
-use std::thread;
-
-use eframe::egui;
 
 use crate::tools::drape::hung::{
-    Answer, Ask, Base, ClothChoice, ClothFacts, ClothFrame, Facts, Frame, Lead, Sample, Wanted,
+    Ask, Base, Chosen, ClothChoice, ClothFacts, ClothFrame, Facts, Frame, Lead, Sample, Second,
 };
 use selvedge_drape::{Drape, DrapeError, DrapeScene, Felt, Hand, HandPath};
 use selvedge_foundation::numerics::{to_single, to_whole};
@@ -19,66 +13,6 @@ use selvedge_foundation::quantity::with_unit;
 
 /// What of a step counts as one that is still to be taken.
 const SLACK: f64 = 1e-6;
-
-/// Who steps.
-#[derive(Default)]
-pub(crate) enum Stepper {
-    /// Nobody yet.
-    #[default]
-    Idle,
-    /// This thread, so that a picture is the same every time.
-    AtOnce(Box<Hanging>),
-    /// One of its own.
-    Thread(SyncSender<Ask>, Receiver<Answer>),
-}
-
-impl Stepper {
-    /// Begins a thread, or none where time is simulated.
-    ///
-    /// # Errors
-    /// The system gives no thread.
-    pub(crate) fn start(ctx: &egui::Context, is_stepped: bool) -> std::io::Result<Self> {
-        if is_stepped {
-            return Ok(Self::AtOnce(Box::default()));
-        }
-        let (asks, asked) = sync_channel::<Ask>(1);
-        let (answered, answers) = sync_channel(1);
-        let ctx = ctx.clone();
-        let steps = move || {
-            let mut hanging = Hanging::default();
-            while let Ok(ask) = asked.recv() {
-                if answered.send(hanging.answer(&ask)).is_err() {
-                    return;
-                }
-                ctx.request_repaint();
-            }
-        };
-        let name = "selvedge-drape".to_owned();
-        thread::Builder::new().name(name).spawn(steps)?;
-        Ok(Self::Thread(asks, answers))
-    }
-
-    /// Asks for something, while nothing else is asked for; what is done at once is there at once.
-    pub(crate) fn ask(&mut self, ask: Ask) -> Option<Answer> {
-        match self {
-            Self::Idle => None,
-            Self::AtOnce(hanging) => Some(hanging.answer(&ask)),
-            Self::Thread(asks, _) => {
-                // Whoever asks one thing at a time finds room.
-                drop(asks.try_send(ask));
-                None
-            }
-        }
-    }
-
-    /// What has come of it.
-    pub(crate) fn poll(&self) -> Option<Answer> {
-        match self {
-            Self::Thread(_, answers) => answers.try_recv().ok(),
-            _ => None,
-        }
-    }
-}
 
 /// A cloth with what its contactors are given.
 struct Rig {
@@ -94,12 +28,14 @@ struct Rig {
 /// All that hangs.
 #[derive(Default)]
 pub(crate) struct Hanging {
-    wanted: Option<Arc<Wanted>>,
+    wanted: Option<Arc<Chosen>>,
     base: Option<(Base, bool)>,
     rigs: Vec<Rig>,
-    facts: Arc<Facts>,
+    pub(crate) facts: Arc<Facts>,
     hands: Vec<Hand>,
-    n_restarts: u64,
+    pub(crate) n_restarts: u64,
+    /// Whether the path that was followed has ended.
+    pub(crate) is_over: bool,
     t_s: f64,
     /// Steps since a time, s: multiples of a step are those of the command to the last bit.
     since: (f64, u64),
@@ -108,9 +44,9 @@ pub(crate) struct Hanging {
 }
 
 impl Hanging {
-    fn answer(&mut self, ask: &Ask) -> Answer {
-        let is_new = self.wanted.as_ref() != Some(&ask.wanted);
-        if is_new {
+    /// Does what is asked for; says the steps that were taken.
+    pub(crate) fn go_on(&mut self, ask: &Ask) -> Vec<Sample> {
+        if self.wanted.as_ref() != Some(&ask.wanted) {
             let refused = self.hang(&ask.wanted, &ask.lead).err();
             self.wanted = Some(Arc::clone(&ask.wanted));
             self.since = (self.t_s, 0);
@@ -124,36 +60,35 @@ impl Hanging {
         if let Err(error) = self.step(ask, &mut samples) {
             self.tell(Some(error.to_string()));
         }
-        let is_over = match &ask.lead {
+        self.is_over = match &ask.lead {
             Lead::Towards(_) => false,
             Lead::Along(path) => self.t_s + self.step_s() > length_s(path) + SLACK,
         };
-        Answer {
-            facts: Arc::clone(&self.facts),
-            frame: Arc::new(self.frame()),
-            samples,
-            n_restarts: self.n_restarts,
-            is_asleep: self.rigs.iter().all(|rig| rig.drape.is_asleep()),
-            is_over,
-        }
+        samples
+    }
+
+    /// Whether all sleeps: nothing comes of asking for the same again.
+    pub(crate) fn is_asleep(&self) -> bool {
+        self.rigs.iter().all(|rig| rig.drape.is_asleep())
     }
 
     /// Hangs what is wanted; what hangs already takes up other figures where it is.
-    fn hang(&mut self, wanted: &Wanted, lead: &Lead) -> Result<(), DrapeError> {
-        let base = (wanted.base.clone(), wanted.is_one_sided);
+    fn hang(&mut self, wanted: &Chosen, lead: &Lead) -> Result<(), DrapeError> {
+        let is_one_sided = wanted.second == Second::Beside;
+        let base = (wanted.base.clone(), is_one_sided);
         let is_other = self.base.as_ref() != Some(&base);
         let n_before = self.rigs.len();
         let mut made = false;
         if is_other || wanted.cloths.len() != n_before {
             let rigs = wanted.cloths.iter();
-            let rigs = rigs.map(|choice| Rig::new(&wanted.base, choice, wanted.is_one_sided));
+            let rigs = rigs.map(|choice| Rig::new(&wanted.base, choice, is_one_sided));
             // What hangs stays until all of the new does.
             (self.rigs, made) = (rigs.collect::<Result<_, _>>()?, true);
             self.base = Some(base);
         } else {
             for (rig, choice) in self.rigs.iter_mut().zip(&wanted.cloths) {
                 if rig.choice.textile != choice.textile {
-                    *rig = Rig::new(&wanted.base, choice, wanted.is_one_sided)?;
+                    *rig = Rig::new(&wanted.base, choice, is_one_sided)?;
                     made = true;
                 } else if rig.choice.changes != choice.changes {
                     rig.refit(choice)?;
@@ -222,7 +157,12 @@ impl Hanging {
             match &ask.lead {
                 // Who does not know the fingers yet leads none.
                 Lead::Towards(to) if to.len() != from.len() => {}
-                Lead::Towards(to) => self.hands = between(&from, to, nth as f64 / n_steps as f64),
+                Lead::Towards(to) => {
+                    let share = nth as f64 / n_steps as f64;
+                    for (hand, (from, to)) in self.hands.iter_mut().zip(from.iter().zip(to)) {
+                        *hand = from.towards(*to, share);
+                    }
+                }
                 Lead::Along(path) => path.at(path.span_s()[0] + t_s, &mut self.hands),
             }
             let mut rows = Vec::new();
@@ -235,7 +175,7 @@ impl Hanging {
         Ok(())
     }
 
-    fn frame(&self) -> Frame {
+    pub(crate) fn frame(&self) -> Frame {
         Frame {
             t_s: self.t_s,
             hands: self.hands.clone(),
@@ -340,15 +280,12 @@ impl Rig {
     }
 
     fn frame(&self) -> ClothFrame {
-        let pads: Vec<_> = self.drape.pads().collect();
+        let (pads, places) = (self.drape.pads(), self.drape.places_mm());
+        let pads: Vec<_> = pads.collect();
         ClothFrame {
             grid: self.drape.grid(),
             size_mm: self.facts.scene.size_mm(),
-            places_mm: self
-                .drape
-                .places_mm()
-                .map(|place| place.map(to_single))
-                .collect(),
+            places_mm: places.map(|place| place.map(to_single)).collect(),
             fingers: (0..pads.len()).map(|nth| self.drape.finger(nth)).collect(),
             pads,
             amplitudes_um: self.amplitudes_um.clone(),
@@ -365,15 +302,4 @@ fn stepping(drape: &Drape) -> String {
 fn length_s(path: &HandPath) -> f64 {
     let [start_s, end_s] = path.span_s();
     end_s - start_s
-}
-
-fn between(from: &[Hand], to: &[Hand], share: f64) -> Vec<Hand> {
-    let mix = |a: f64, b: f64| a + (b - a) * share;
-    let hands = from.iter().zip(to);
-    hands
-        .map(|(from, to)| Hand {
-            centre_mm: [0, 1, 2].map(|axis| mix(from.centre_mm[axis], to.centre_mm[axis])),
-            opening_mm: mix(from.opening_mm, to.opening_mm),
-        })
-        .collect()
 }

@@ -8,7 +8,7 @@ use super::*;
 use crate::bench::command::PlayCommand;
 use crate::bench::export::Exportable;
 use crate::shell::headless::Headless;
-use crate::tools::drape::hung::ClothFrame;
+use crate::tools::drape::hung::{ClothFrame, Second};
 use selvedge_drape::{Drape, DrapeScene, HandPath};
 use selvedge_scratch::ScratchFolder;
 

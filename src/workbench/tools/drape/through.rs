@@ -56,7 +56,7 @@ impl ThroughDevice {
     /// session says itself whether its cloth is felt. Once a frame.
     pub(crate) fn follow(&mut self, cloth: Option<(f64, &str, &ClothFrame)>, bench: &mut Bench) {
         self.is_on &= Self::refusal(bench).is_none();
-        let hung = bench.hanging().textile();
+        let hung = bench.hung();
         if !self.is_on && hung.is_none() {
             if self.feed.take().is_some() {
                 bench.feel_cloth(None);

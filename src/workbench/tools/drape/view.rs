@@ -6,7 +6,6 @@ use std::sync::Arc;
 use eframe::egui::{Align2, Id, Margin, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use crate::bench::command::{FileCommand, Purpose};
-use crate::bench::session::Hanging;
 use crate::bench::tool::PaneContext;
 use crate::kit::pane::{inside, paint_sentence, scroll_area};
 use crate::kit::plot::{self, Setting};
@@ -48,6 +47,8 @@ const MARGIN: Margin = Margin {
     top: 18,
     bottom: 18,
 };
+/// Room that the legend leaves to no title, points.
+const LEGEND: f32 = 84.0;
 /// The time axis of the charts.
 const TIME: &str = "drape time";
 /// Names of the charts, for assistive tools.
@@ -66,8 +67,10 @@ const BARS: f32 = 56.0;
 /// Shows the pane.
 pub(crate) fn show(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext<'_>) {
     let whole = ui.available_rect_before_wrap();
-    if *context.bench.hanging() != Hanging::Never {
-        return show_presented(ui, draping, context);
+    if context.bench.has_session() {
+        // What is presented: the cloth alone, and nothing of what it is or gives.
+        let response = ui.interact(whole, Id::unique(CLOTH), Sense::click_and_drag());
+        return show_view(ui, &response, whole, draping, context);
     }
     if whole.width() < WIDE {
         return show_narrow(ui, draping, context);
@@ -85,22 +88,10 @@ pub(crate) fn show(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext
     };
     inside(ui, middle, |ui| show_middle(ui, draping, context));
     inside(ui, charts, |ui| {
-        let n_columns = if whole.width() >= WIDER { 1 } else { 4 };
+        let n_columns = if whole.width() >= WIDER { 1 } else { 2 };
         show_charts(ui, charts, draping, n_columns);
     });
     ui.advance_cursor_after_rect(whole);
-}
-
-/// What a session presents: the cloth alone, and nothing of what it is or gives.
-fn show_presented(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext<'_>) {
-    let rect = ui.available_rect_before_wrap();
-    if context.bench.hanging().textile().is_none() {
-        ui.painter().rect_filled(rect, 4, Palette::in_ui(ui).floor);
-        return paint_sentence(ui.painter(), rect, "A cloth hangs here in its trial");
-    }
-    let response = ui.interact(rect, Id::unique(CLOTH), Sense::click_and_drag());
-    show_view(ui, &response, rect, draping, context);
-    ui.advance_cursor_after_rect(rect);
 }
 
 fn show_narrow(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext<'_>) {
@@ -159,7 +150,7 @@ fn show_view(
     let touched = (&mut draping.look, &mut draping.hands, &draping.motion);
     touch(ui, response, (&rects, &sights), touched);
     paint_focus(ui, response);
-    if let (Hanging::Textile(_), Some(sight)) = (context.bench.hanging(), sights.first()) {
+    if let (Some(_), Some(sight)) = (context.bench.hung(), sights.first()) {
         return paint::cloth(&painter, sight, &unmarked(&frame), &plain(ui, context));
     }
     follow_strain(draping, &frame);
@@ -184,12 +175,8 @@ fn show_view(
 }
 
 fn dress<'a>(ui: &Ui, nth: usize, draping: &Draping, context: &mut PaneContext<'_>) -> Dress<'a> {
-    let key = draping
-        .motion
-        .facts
-        .cloths
-        .get(nth)
-        .and_then(|facts| facts.key.clone());
+    let facts = draping.motion.facts.cloths.get(nth);
+    let key = facts.and_then(|facts| facts.key.clone());
     let bench = &mut *context.bench;
     let view = &mut bench.library.view;
     let picture = key.and_then(|key| {
@@ -371,7 +358,8 @@ fn show_charts(ui: &Ui, rect: Rect, draping: &Draping, n_columns: usize) {
         );
         let own = Rect::from_min_size(rect.min + place, size - vec2(GAP, GAP));
         let left = pos2(own.left() + f32::from(MARGIN.left), own.top() + 8.0);
-        paint_line(ui, left, 0.5 * own.width(), quiet(chart.title.clone()));
+        let room = own.right() - f32::from(MARGIN.right) - LEGEND - left.x;
+        paint_line(ui, left, room, quiet(chart.title.clone()));
         let setting = Setting {
             name,
             margin: MARGIN,

@@ -1,7 +1,7 @@
-//! Trials of a cloth that hangs: the session says what hangs, the Drape pane hangs it and lets it
-//! be felt.
+//! Trials of a cloth that hangs: the session says what hangs, the tool of hanging cloths shows it in
+//! the participant's view and lets it be felt.
 
-use crate::bench::session::{Hanging, Hung};
+use crate::bench::session::Hung;
 use crate::tools::experiment::active_session::ActiveSession;
 use selvedge_experiment::layout::Layout;
 
@@ -12,16 +12,11 @@ impl ActiveSession {
     }
 
     /// What hangs, as others need to know of it.
-    pub(crate) fn hanging(&self) -> Hanging {
-        if !self.design.composition.presentation.hangs {
-            return Hanging::Never;
-        }
-        self.hanging_textile().map_or(Hanging::NotNow, |id| {
-            Hanging::Textile(Hung {
-                id: id.to_owned(),
-                library: self.materials.library(),
-                is_felt: self.is_felt(),
-            })
+    pub(crate) fn hung(&self) -> Option<Hung> {
+        self.hanging_textile().map(|id| Hung {
+            id: id.to_owned(),
+            library: self.materials.library(),
+            is_felt: self.is_felt(),
         })
     }
 }

@@ -40,7 +40,7 @@ pub(crate) use crate::tools::experiment::state::Experiment;
 
 use std::path::PathBuf;
 
-use eframe::egui::{CentralPanel, Context, Frame, Key, Ui, ViewportClass, ViewportId};
+use eframe::egui::{CentralPanel, Context, Frame, Key, Ui, UiBuilder, ViewportClass, ViewportId};
 
 use crate::bench::Bench;
 use crate::bench::command::{Command, Commands, FileCommand, Purpose};
@@ -70,6 +70,7 @@ impl Experiment {
         let mut acts = Vec::new();
         let view = self.participant(&context.bench.live, now_s);
         let shown = participant::show(ui, &view, &mut acts);
+        show_hung(ui, shown.as_ref(), context);
         if shown.is_some() {
             *context.ground = shown;
         }
@@ -85,18 +86,26 @@ impl Experiment {
     ) -> Option<PointerGround> {
         let (mut window, mut acts) = (self.window, Vec::new());
         let live = &context.bench.live;
-        let view = self.participant(live, ctx.input(|input| input.time));
+        let (view, is_armed) = (
+            self.participant(live, ctx.input(|input| input.time)),
+            live.is_armed(),
+        );
         let builder = own_window("Selvedge – participant")
             .with_inner_size(PARTICIPANTS_WINDOW)
             .with_min_inner_size(MIN_WINDOW)
             .with_fullscreen(window.fills_screen);
         let id = ViewportId::from_hash_of("participant");
         let shown = ctx.show_viewport_immediate(id, builder, |ui, class| {
+            let mut show = |ui: &mut Ui, context: &mut PaneContext<'_>| {
+                let shown = participant::show(ui, &view, &mut acts);
+                show_hung(ui, shown.as_ref(), context);
+                shown
+            };
             if class == ViewportClass::EmbeddedWindow {
-                return participant::show(ui, &view, &mut acts);
+                return show(ui, context);
             }
             take_window_keys(ui.ctx(), &mut window, context.commands);
-            if live.is_armed() {
+            if is_armed {
                 frame_as_armed(ui.ctx());
             }
             let panel = CentralPanel::default().frame(Frame::new());
@@ -105,7 +114,7 @@ impl Experiment {
                     participant::show_before(ui, *is_coming);
                     None
                 }
-                view => participant::show(ui, view, &mut acts),
+                _ => show(ui, context),
             });
             let window = Pointed::Participant;
             shown.inner.map(|ground| PointerGround { window, ..ground })
@@ -197,6 +206,17 @@ impl Tool for Experiment {
         preferences.folders.sessions = self.form.kept_folder();
         preferences.folders.design = self.form.study.chosen().word();
     }
+}
+
+/// Shows the cloth that a session hangs, where the participant's view leaves room for what lies.
+fn show_hung(ui: &mut Ui, shown: Option<&PointerGround>, context: &mut PaneContext<'_>) {
+    let Some(shown) = shown else { return };
+    let Some((at, mut tool)) = context.guest.take() else {
+        return;
+    };
+    let mut ui = ui.new_child(UiBuilder::new().max_rect(shown.rect));
+    tool.ui(Pane::Drape, &mut ui, context);
+    *context.guest = Some((at, tool));
 }
 
 /// What the participant's window does besides showing its view: it closes, fills its screen by F11,

@@ -6,7 +6,7 @@ use crate::bench::background::finished;
 use crate::bench::command::ShowCommand;
 use crate::bench::pane::Pane;
 use crate::bench::perspective::Perspective;
-use crate::bench::session::{Hanging, SessionInSight};
+use crate::bench::session::SessionInSight;
 use crate::bench::view::Source;
 use crate::bench::{Bench, FRAME};
 use crate::tools::experiment::active_session::ActiveSession;
@@ -170,7 +170,7 @@ impl Experiment {
         bench.session.active = Some(SessionInSight {
             pseudonym: session.subject.pseudonym.clone(),
             log: session.log.clone(),
-            hanging: Hanging::Never,
+            hung: None,
         });
         self.session = Some(Box::new(session));
         let play = bench.live.play;
@@ -185,11 +185,6 @@ impl Experiment {
         bench.send(Command::SetContactorMask(Vec::new()));
         let perspective = ShowCommand::Perspective(Perspective::Experiment);
         bench.commands.push(perspective.into());
-        if let Some(session) = self.session.as_ref()
-            && session.design.composition.presentation.hangs
-        {
-            bench.commands.push(ShowCommand::Reveal(Pane::Drape).into());
-        }
         if !self.window.is_open {
             let reveal = ShowCommand::Reveal(Pane::Participant);
             bench.commands.push(reveal.into());
@@ -203,7 +198,7 @@ impl Experiment {
             return;
         };
         if let Some(active) = &mut bench.session.active {
-            active.hanging = session.hanging();
+            active.hung = session.hung();
         }
         let tuning = session.tuning();
         let nothing = Layout::empty();

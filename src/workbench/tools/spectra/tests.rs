@@ -98,6 +98,7 @@ impl Plots {
             scene: &scene,
             commands: &mut Commands::new(),
             ground: &mut None,
+            guest: &mut None,
         };
         let tool = self.tools.showing(pane).unwrap();
         tool.ui(pane, ui, &mut context);

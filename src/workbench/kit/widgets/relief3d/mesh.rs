@@ -146,7 +146,7 @@ fn side(mesh: &mut Mesh, projection: &Projection, edge: &[[f32; 3]], colour: Col
 }
 
 /// A colour under so much light.
-fn lit(colour: Color32, share: f32) -> Color32 {
+pub(crate) fn lit(colour: Color32, share: f32) -> Color32 {
     let [r, g, b, _] = colour.to_array();
     let [r, g, b] = [r, g, b].map(|c| to_byte(f64::from(c) * f64::from(share.clamp(0.0, 1.0))));
     Color32::from_rgb(r, g, b)

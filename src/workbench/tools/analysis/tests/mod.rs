@@ -14,7 +14,7 @@ use super::*;
 use crate::bench::background::Executor;
 use crate::bench::command::ShowCommand;
 use crate::bench::command::edit::Edit;
-use crate::bench::session::{Hanging, SessionInSight};
+use crate::bench::session::SessionInSight;
 use crate::shell::arrangement;
 use crate::shell::headless::Headless;
 use crate::tools::analysis::asked::{Asked, Choice, Effort};
@@ -312,7 +312,7 @@ fn while_a_session_is_held_results_are_covered_and_its_subject_is_left_out() {
     window.workbench.bench.session.active = Some(SessionInSight {
         pseudonym: "p07".to_owned(),
         log: active.log().to_owned(),
-        hanging: Hanging::Never,
+        hung: None,
     });
     window.pass(2);
     assert!(is_covered(&window));

@@ -3,8 +3,6 @@
 
 use super::presented::{arm, begun_on_array, present, rows};
 use super::*;
-use crate::bench::command::ShowCommand;
-use crate::bench::pane::Pane;
 use crate::tools::drape::Draping;
 use eframe::egui::{Event, Id, Modifiers, PointerButton, Pos2, vec2};
 use selvedge_experiment::Validity;
@@ -54,7 +52,6 @@ fn rub(window: &mut Headless, n_frames: u16) {
 fn a_cloth_that_hangs_is_rated_once_it_was_rubbed_and_nothing_else_is_shown() {
     let folder = Folder::new("rating-hanging");
     let mut window = begun_on_array(&folder, "rating-hanging");
-    window.dispatch(ShowCommand::Reveal(Pane::Drape));
     window.pass(40);
     arm(&mut window);
     present(&mut window);
