@@ -90,8 +90,7 @@ impl Measured {
         })
     }
 
-    /// Sq: root mean square deviation from the mean, of the points that have a height, µm
-    /// (ISO 25178-2, without levelling or filtering). Steps do not matter to it.
+    /// Sq (ISO 25178-2) of the points that have a height, µm, without levelling or filtering.
     pub fn sq_um(&self) -> f64 {
         let n = self.present().count() as f64;
         let mean = self.present().sum::<f64>() / n;

@@ -36,9 +36,9 @@ impl PictureScale {
         }
     }
 
-    /// Pixels to a millimetre on a picture with this lattice, or with none. A warp of a and a weft of b threads
-    /// to a centimetre cross a·b/100 times on a square millimetre; the thread grid says on how many
-    /// pixels they cross once, whichever of its vectors is the warp.
+    /// Pixels to a millimetre on a picture with this lattice, or with none. A warp of a and a weft
+    /// of b threads to a centimetre cross a·b/100 times on a square millimetre; the thread grid
+    /// says on how many pixels they cross once, whichever of its vectors is the warp.
     ///
     /// # Errors
     /// Threads were counted, and no grid of them was found, or one that is denser one way by

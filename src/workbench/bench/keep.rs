@@ -5,9 +5,11 @@
 
 use std::sync::Arc;
 
+use crate::bench::background::Task;
 use crate::bench::library_shelf::plain_id;
+use crate::bench::pane::Pane;
 use crate::bench::view::LibraryEntry;
-use selvedge_textile::BuiltFile;
+use selvedge_textile::{BuiltFile, Textile};
 
 /// What the button “Keep…” says of itself, wherever it stands.
 pub(crate) const KEEP_TIP: &str =
@@ -36,6 +38,33 @@ pub(crate) struct Keep {
     pub(crate) is_felt: bool,
     /// What is done where a textile with the same name or id is there; `None` asks.
     pub(crate) when_taken: Option<WhenTaken>,
+}
+
+/// New textiles that are listened to.
+#[derive(Debug)]
+pub(crate) struct Listening {
+    /// They.
+    pub(crate) textiles: NewTextiles,
+    /// The pane that they come from, and that comes back afterwards.
+    pub(super) from: Pane,
+    /// The first of them and its mean amplitudes as those of the library's index are, µm; `None`
+    /// until it is read.
+    pub(crate) new: Option<(Arc<Textile>, [f64; 2])>,
+    /// The textiles of the library that it is compared with.
+    pub(crate) references: [Option<String>; 2],
+    /// What is felt: the new one (0), or a reference (1, 2).
+    pub(crate) felt: usize,
+    pub(super) reading: Option<Task<Arc<Textile>>>,
+}
+
+impl Listening {
+    /// The id of what is felt, once it is there.
+    pub(super) fn id(&self) -> Option<&str> {
+        match self.felt.checked_sub(1) {
+            None => self.new.as_ref().map(|(new, _)| new.id()),
+            Some(nth) => self.references.get(nth)?.as_deref(),
+        }
+    }
 }
 
 /// What is done with a new textile whose name or id is taken.

@@ -10,8 +10,7 @@ use std::sync::Arc;
 
 use crate::bench::background::Task;
 use crate::bench::history::{History, Moment, StepList};
-use crate::bench::keep::{Keep, NewTextiles, Taken};
-use crate::bench::listening::Listening;
+use crate::bench::keep::{Keep, Listening, NewTextiles, Taken};
 use crate::bench::pane::Pane;
 use selvedge_textile::{BuiltFile, Change, Library, LibraryFolder, TextileError, called};
 

@@ -2,46 +2,17 @@
 //! or one of two of the library in its place, so that they are compared by touch. The scene itself
 //! stays as it is.
 
-use std::sync::Arc;
-
 use crate::bench::Bench;
-use crate::bench::background::{Task, finished};
+use crate::bench::background::finished;
 use crate::bench::command::ShowCommand;
-use crate::bench::keep::NewTextiles;
+use crate::bench::keep::{Listening, NewTextiles};
 use crate::bench::pane::Pane;
 use crate::bench::view::LibraryEntry;
 use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::level_db;
 use selvedge_render::scene::Scene;
+use selvedge_textile::Library;
 use selvedge_textile::tactile::{Filters, Levels};
-use selvedge_textile::{Library, Textile};
-
-/// New textiles that are listened to.
-#[derive(Debug)]
-pub(crate) struct Listening {
-    /// They.
-    pub(crate) textiles: NewTextiles,
-    /// The pane that they come from, and that comes back afterwards.
-    from: Pane,
-    /// The first of them and its mean amplitudes as those of the library's index are, µm; `None`
-    /// until it is read.
-    pub(crate) new: Option<(Arc<Textile>, [f64; 2])>,
-    /// The textiles of the library that it is compared with.
-    pub(crate) references: [Option<String>; 2],
-    /// What is felt: the new one (0), or a reference (1, 2).
-    pub(crate) felt: usize,
-    reading: Option<Task<Arc<Textile>>>,
-}
-
-impl Listening {
-    /// The id of what is felt, once it is there.
-    fn id(&self) -> Option<&str> {
-        match self.felt.checked_sub(1) {
-            None => self.new.as_ref().map(|(new, _)| new.id()),
-            Some(nth) => self.references.get(nth)?.as_deref(),
-        }
-    }
-}
 
 impl Bench {
     /// Begins to listen to new textiles.

@@ -6,9 +6,8 @@ use std::sync::Arc;
 use eframe::egui::{Align2, Context, Id, Key, Label, Modal, RichText, TextEdit, Ui, Window, vec2};
 
 use crate::bench::command::Commands;
-use crate::bench::keep::{Keep, Taken, WhenTaken};
+use crate::bench::keep::{Keep, Listening, Taken, WhenTaken};
 use crate::bench::library_acts::LibraryCommand;
-use crate::bench::listening::Listening;
 use crate::bench::tool::PaneContext;
 use crate::bench::view::LibraryEntry;
 use crate::kit::theme;
