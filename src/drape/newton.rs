@@ -129,7 +129,8 @@ impl Newton {
         self.solve(system, x, 1e-3)
     }
 
-    /// Solves for the step by conjugate gradients as far as asked; says how many iterations it took.
+    /// Solves for the step by conjugate gradients as far as asked; says how many iterations it
+    /// took.
     fn solve(&mut self, system: &System, x: &[Vector], reach: f64) -> u32 {
         system.precondition(x, &mut self.lines);
         for (r, grad) in self.r.iter_mut().zip(&self.grad) {

@@ -16,7 +16,7 @@ pub(crate) const STUDY: Study = Study {
     name: "drape",
     chapter: "cloth",
     question: "How should a hanging cloth be stepped, and what does it cost?",
-    reference: "Explicit steps of a twentieth of their limit: of a fifth at 51², half beyond 1e4 N/m.",
+    reference: "Explicit steps of a twentieth of their limit: a fifth at 51², half beyond 1e4 N/m.",
     error: ("error of places, rms", "mm"),
     cost_of: "second of the cloth's",
     run,
@@ -107,8 +107,8 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
          grasped."
             .to_owned(),
         "energy_beyond_percent: energy at the end less the work of hands, beyond the reference's, \
-         of the cloth's weight times its length: below 0 the way of stepping itself has lost it; XPBD \
-         stretches yarns farther than it pulls with."
+         of the cloth's weight times its length: below 0 the way of stepping itself has lost it; \
+         XPBD stretches yarns farther than it pulls with."
             .to_owned(),
     ];
     plots.push(("drape-iterations".to_owned(), picture));

@@ -72,7 +72,8 @@ impl Sample {
         let step = step_s.map_or_else(String::new, |s| format!("step_ms = {:e}\n", 1e3 * s));
         let mut text = format!(
             "name = \"Studied\"\nsize_mm = [200.0, 200.0]\ngrid = [{n}, {n}]\npins = \"{pins}\"\n\
-             air = false\nintegrator = \"{integrator}\"\n{step}[measured]\nweight_mg_per_cm2 = {weight:e}\nemt_percent = 5.0\n\
+             air = false\nintegrator = \"{integrator}\"\n{step}[measured]\n\
+             weight_mg_per_cm2 = {weight:e}\nemt_percent = 5.0\n\
              {tension}\ng_gf_per_cm_deg = 0.5\nb_gf_cm2_per_cm = 0.1\nt0_mm = 0.5\n"
         );
         let finger = |side: &&str| {

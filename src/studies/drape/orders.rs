@@ -10,7 +10,7 @@ pub(crate) const ORDERS: Study = Study {
     name: "drape-orders",
     chapter: "cloth",
     question: "How fast do errors of a hanging cloth fall with the step and with the spacing?",
-    reference: "The first order of implicit Euler, the second of the others, by halving.",
+    reference: "The first order of implicit Euler, the second of BDF2 and in space, by halving.",
     error: ("off the order", ""),
     cost_of: "",
     run,
@@ -68,11 +68,7 @@ fn in_time(effort: Effort) -> Result<Vec<Row>, ReportError> {
     };
     let reference = swung(Integrator::Explicit, REFERENCE_S)?;
     let mut rows = Vec::new();
-    for (integrator, order) in [
-        (Integrator::Explicit, 2.0),
-        (Integrator::ImplicitEuler, 1.0),
-        (Integrator::Bdf2, 2.0),
-    ] {
+    for (integrator, order) in [(Integrator::ImplicitEuler, 1.0), (Integrator::Bdf2, 2.0)] {
         let error = |step_s: f64| {
             let name = format!("{} ms", number(1e3 * step_s));
             Ok((name, off_mm(&swung(integrator, step_s)?, &reference)))

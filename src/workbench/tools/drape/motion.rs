@@ -1,8 +1,8 @@
 //! The cloths' motion as the window knows it: what was asked for, what came of it lately, and how
 //! fast that goes beside life.
 //!
-//! They are stepped in the background while the window goes on. One thing is asked for at a time, so
-//! that nothing piles up: who cannot keep up runs slower than life.
+//! They are stepped in the background while the window goes on. One thing is asked for at a time:
+//! who cannot keep up runs slower than life.
 
 use std::collections::VecDeque;
 use std::sync::Arc;

@@ -1,5 +1,5 @@
-//! Trials of a cloth that hangs: the session says what hangs, the tool of hanging cloths shows it in
-//! the participant's view and lets it be felt.
+//! Trials of a cloth that hangs: the session says what hangs, the tool of hanging cloths shows it
+//! in the participant's view and lets it be felt.
 
 use crate::bench::session::Hung;
 use crate::tools::experiment::active_session::ActiveSession;
