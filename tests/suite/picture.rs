@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use selvedge_foundation::files::{GrayImage, Rgb8Image};
+use selvedge_foundation::progress::Progress;
 use selvedge_textile::picture::{
     Analysis, AnalysisOptions, Basis, DirectionOptions, EvenLight, NoLattice, Picture, Place,
 };
@@ -454,28 +455,32 @@ const REAL: [(&str, Option<[Place; 2]>); 12] = [
     ),
 ];
 
-#[test]
-fn real_pictures_have_the_lattices_that_eyes_see_in_them() {
-    let Some(data) = std::env::var_os("SELVEDGE_TEST_DATA").map(PathBuf::from) else {
-        println!("skipped: SELVEDGE_TEST_DATA does not name a folder with real pictures");
-        return;
-    };
+/// The analysis of a picture of a real cloth; why there is none, where that is not at hand.
+pub(crate) fn real_analysis(name: &str) -> Result<Analysis, String> {
+    let data = std::env::var_os("SELVEDGE_TEST_DATA").map(PathBuf::from);
+    let data = data.ok_or("SELVEDGE_TEST_DATA does not name a folder with real pictures")?;
+    let path = data.join("fabric-images").join(name);
+    let bytes = std::fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))?;
     let options = AnalysisOptions {
         light: EvenLight::Auto,
         directions: DirectionOptions::default(),
         n_threads: 2,
     };
+    let picture = Picture::load(&bytes, &path).unwrap();
+    let of = |p: &mut Progress<'_>| Analysis::of(picture, &options, p);
+    Ok(Progress::unheard(of).unwrap())
+}
+
+#[test]
+fn real_pictures_have_the_lattices_that_eyes_see_in_them() {
     for (name, expected) in REAL {
-        let path = data.join("fabric-images").join(name);
-        let Ok(bytes) = std::fs::read(&path) else {
-            println!("skipped: no {}", path.display());
-            continue;
+        let analysis = match real_analysis(name) {
+            Ok(analysis) => analysis,
+            Err(why) => {
+                println!("skipped: {why}");
+                continue;
+            }
         };
-        let picture = Picture::load(&bytes, &path).unwrap();
-        let analysis = selvedge_foundation::progress::Progress::unheard(|p| {
-            Analysis::of(picture, &options, p)
-        })
-        .unwrap();
         match (analysis.found, expected) {
             (
                 Err(

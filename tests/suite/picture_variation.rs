@@ -1,21 +1,16 @@
 //! What varies from cell to cell of a pictured cloth: felt as scanned, or synthesized.
 
-use std::path::PathBuf;
-
 use selvedge_foundation::numerics::{Grid, median};
 use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::level_db;
 use selvedge_textile::picture::brightness::Brightness;
 use selvedge_textile::picture::shading::{Light, Method, ShadingOptions};
-use selvedge_textile::picture::{
-    Analysis, AnalysisOptions, Autocorrelation, DirectionOptions, EvenLight, Picture, Relief,
-    ReliefOf,
-};
+use selvedge_textile::picture::{Analysis, Autocorrelation, Relief, ReliefOf};
 use selvedge_textile::surface::Representation;
 use selvedge_textile::tactile::{Filters, Levels};
 use selvedge_textile::{HeightScale, Library, PictureTextile};
 
-use crate::picture::cloth;
+use crate::picture::{cloth, real_analysis};
 use crate::program::Lab;
 
 const SYNTHESIZED: [&str; 16] = [
@@ -144,24 +139,15 @@ fn most_alike(cloth: &Grid<f64>, size: [usize; 2], beyond: f64) -> f64 {
 
 #[test]
 fn synthesized_cloth_is_felt_like_its_scan_and_repeats_less() {
-    let Some(data) = std::env::var_os("SELVEDGE_TEST_DATA").map(PathBuf::from) else {
-        println!("skipped: SELVEDGE_TEST_DATA does not name a folder with real pictures");
-        return;
-    };
-    let options = AnalysisOptions {
-        light: EvenLight::Auto,
-        directions: DirectionOptions::default(),
-        n_threads: 2,
-    };
     let mut off_db = Vec::new();
     for name in REAL {
-        let path = data.join("fabric-images").join(name);
-        let Ok(bytes) = std::fs::read(&path) else {
-            println!("skipped: no {}", path.display());
-            continue;
+        let analysis = match real_analysis(name) {
+            Ok(analysis) => analysis,
+            Err(why) => {
+                println!("skipped: {why}");
+                continue;
+            }
         };
-        let picture = Picture::load(&bytes, &path).unwrap();
-        let analysis = Progress::unheard(|p| Analysis::of(picture, &options, p)).unwrap();
         let (scan, scan_db) = felt(&analysis, None);
         let (made, made_db) = felt(&analysis, Some(40.0));
         let size = [scan.width(), scan.height()];
