@@ -467,8 +467,7 @@ pub(crate) fn real_analysis(name: &str) -> Result<Analysis, String> {
         n_threads: 2,
     };
     let picture = Picture::load(&bytes, &path).unwrap();
-    let of = |p: &mut Progress<'_>| Analysis::of(picture, &options, p);
-    Ok(Progress::unheard(of).unwrap())
+    Ok(Progress::unheard(|p| Analysis::of(picture, &options, p)).unwrap())
 }
 
 #[test]
