@@ -6,6 +6,8 @@
 convert -size 240x200 xc: -fx '0.5+0.2*cos(i*pi/6)*cos(j*pi/10)+0.1*cos(i*pi/12)*cos(j*pi/10)+0.02*rand()' \
   -colorspace gray "$work/weave.png"
 own=$work/data/selvedge/textiles
+# Keep… can be pressed: its words are bright.
+is_made() { [ "$(import -window root -crop 60x20+14+661 +repage -format '%[fx:maxima>0.8]' info:)" = 1 ]; }
 display
 start
 slowly 'key Escape' 'key ctrl+k' "type --delay 30 'Picture'" 'key Return' 'mousemove 440 228' 'click 1' 'key ctrl+a' \
@@ -17,7 +19,8 @@ sleep 6
 shot opened
 slowly 'mousemove 90 137' 'click 1' "type --delay 40 '300'" 'key Tab' 'mousemove 90 618' 'click 1' \
   "type --delay 40 '120'" 'key Tab' 'mousemove 168 566' 'click 1'
-sleep 60
+sleep 3
+await 100 is_made || fail "the textile is never made"
 shot made
 slowly 'mousemove 42 671' 'click 1'
 sleep 2
