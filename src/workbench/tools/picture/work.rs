@@ -87,6 +87,11 @@ fn known<T>(
     stage(prior).clone()
 }
 
+/// Whether a stage was made anew, so that it is shown before the work goes on.
+fn is_new<T>(before: Option<&Arc<T>>, now: &Arc<T>) -> bool {
+    before.is_none_or(|before| !Arc::ptr_eq(before, now))
+}
+
 /// The photograph is shown before it is correlated, its lattice before heights are found.
 fn stages(
     found: &mut Found,
@@ -100,10 +105,7 @@ fn stages(
         None => Arc::new(loaded(&inputs)?),
     };
     found.loaded = Some(Arc::clone(&loaded));
-    if prior
-        .and_then(|prior| prior.loaded.as_ref())
-        .is_none_or(|of| !Arc::ptr_eq(of, &loaded))
-    {
+    if is_new(prior.and_then(|prior| prior.loaded.as_ref()), &loaded) {
         found.is_partial = true;
         return Ok(());
     }
@@ -119,10 +121,7 @@ fn stages(
         None => Arc::new(cloth(&inputs, &correlated, progress)?),
     };
     found.cloth = Some(Arc::clone(&cloth));
-    if prior
-        .and_then(|prior| prior.cloth.as_ref())
-        .is_none_or(|of| !Arc::ptr_eq(of, &cloth))
-    {
+    if is_new(prior.and_then(|prior| prior.cloth.as_ref()), &cloth) {
         found.is_partial = true;
         return Ok(());
     }
