@@ -29,6 +29,8 @@ pub struct LoadedScene {
     fresh: Vec<String>,
     /// Ids of textiles that are placed and were not read, because nothing is felt of them.
     unread: Vec<String>,
+    /// What the next scene places under its id in place of a textile of the library.
+    lent: Option<Arc<Textile>>,
 }
 
 /// Says which textiles placed are to be read, given the tuning with its reference and the gains of
@@ -122,6 +124,7 @@ impl LoadedScene {
             levels_db: Vec::new(),
             fresh: Vec::new(),
             unread: Vec::new(),
+            lent: None,
         }
     }
 
@@ -149,7 +152,7 @@ impl LoadedScene {
             fresh.push(self.library.unread(id)?);
         }
         let find = |placed: &PlacedTextile| {
-            let mut known = fresh.iter().chain(&self.textiles);
+            let mut known = self.lent.iter().chain(&fresh).chain(&self.textiles);
             known
                 .find(|textile| textile.id() == placed.id)
                 .map(Arc::clone)
@@ -161,16 +164,20 @@ impl LoadedScene {
             library: Arc::clone(&self.library),
             textiles,
             levels_db,
-            fresh: Vec::new(),
+            // The library's own comes back with the scene after.
+            fresh: self.lent.iter().map(|one| one.id().to_owned()).collect(),
             unread,
+            lent: None,
         })
     }
 
     /// Whether a scene that places this textile finds it loaded.
     pub fn knows(&self, id: &str) -> bool {
         let is_in = |ids: &[String]| ids.iter().any(|other| other == id);
-        let is_there = self.textiles.iter().any(|textile| textile.id() == id);
-        is_there && !is_in(&self.fresh) && !is_in(&self.unread)
+        let is_it = |textile: &Arc<Textile>| textile.id() == id;
+        let is_there = self.textiles.iter().any(is_it);
+        let is_own = is_there && !is_in(&self.fresh) && !is_in(&self.unread);
+        self.lent.as_ref().is_some_and(is_it) || is_own
     }
 
     /// Ids of textiles that are placed and were not read, because nothing is felt of them: they
@@ -185,9 +192,10 @@ impl LoadedScene {
         self.library = Arc::clone(library);
     }
 
-    /// Lets scenes place a textile that may lie in no library, under its id, while they do.
+    /// Lets the next scene place a textile that lies in no library; the one after places what the
+    /// library has under that id, unless it is lent again.
     pub fn lend(&mut self, textile: Arc<Textile>) {
-        self.textiles.insert(0, textile);
+        self.lent = Some(textile);
     }
 
     /// Loads textiles with these ids anew when a scene places them next: their files are others.

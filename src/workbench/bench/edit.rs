@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::bench::applied_gains::AppliedGains;
 use crate::bench::command::edit::Edit;
 use crate::bench::gain_set::GainSet;
+use crate::bench::keep::Listening;
 use crate::bench::preparing::Ready;
 use crate::bench::{Bench, editing, preparing};
 
@@ -57,7 +58,7 @@ impl Bench {
         let what = (scene, self.settings.preferences.rendering);
         let mut loaded = self.engine_scene.loaded.clone();
         let listening = self.library.acts.listening.as_ref();
-        if let Some((new, _)) = listening.and_then(|listening| listening.new.as_ref()) {
+        if let Some(new) = listening.and_then(Listening::felt_new) {
             loaded.lend(Arc::clone(new));
         }
         let preparing = &mut self.engine_scene.preparing;

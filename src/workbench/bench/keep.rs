@@ -58,10 +58,16 @@ pub(crate) struct Listening {
 }
 
 impl Listening {
+    /// The new textile, once it is there, while it is what is felt.
+    pub(super) fn felt_new(&self) -> Option<&Arc<Textile>> {
+        let (new, _) = self.new.as_ref()?;
+        (self.felt == 0).then_some(new)
+    }
+
     /// The id of what is felt, once it is there.
     pub(super) fn id(&self) -> Option<&str> {
         match self.felt.checked_sub(1) {
-            None => self.new.as_ref().map(|(new, _)| new.id()),
+            None => self.felt_new().map(|new| new.id()),
             Some(nth) => self.references.get(nth)?.as_deref(),
         }
     }

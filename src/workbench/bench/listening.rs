@@ -2,6 +2,8 @@
 //! or one of two of the library in its place, so that they are compared by touch. The scene itself
 //! stays as it is.
 
+use std::borrow::Cow;
+
 use crate::bench::Bench;
 use crate::bench::background::finished;
 use crate::bench::command::ShowCommand;
@@ -73,12 +75,12 @@ impl Bench {
     }
 
     /// A scene as it is felt: with what is listened to in the place of all its textiles.
-    pub(crate) fn heard(&self, scene: &Scene) -> Scene {
-        let mut scene = scene.clone();
+    pub(crate) fn heard<'a>(&self, scene: &'a Scene) -> Cow<'a, Scene> {
+        let mut scene = Cow::Borrowed(scene);
         let listening = self.library.acts.listening.as_ref();
         let listening = listening.filter(|_| !self.has_session());
         if let Some(id) = listening.and_then(Listening::id) {
-            for placed in &mut scene.textiles {
+            for placed in &mut scene.to_mut().textiles {
                 id.clone_into(&mut placed.id);
             }
         }

@@ -3,7 +3,7 @@
 use eframe::egui::vec2;
 
 use super::*;
-use crate::bench::command::{Command, FileCommand};
+use crate::bench::command::{Command, FileCommand, Purpose};
 use crate::bench::keep::NewTextile;
 use crate::shell::headless::Headless;
 use selvedge_scratch::ScratchFolder;
@@ -128,6 +128,35 @@ fn a_new_textile_is_felt_beside_two_others_and_kept_only_when_it_is_wanted() {
     do_now(&mut window, Keep::of(textiles, false));
     assert_eq!(heard(&window), own_scene);
     assert_eq!(own(&window), ["Mine"]);
+}
+
+#[test]
+fn a_new_textile_stands_for_its_namesake_only_while_it_is_felt() {
+    let folder = ScratchFolder::new("namesake");
+    let mut window = window(&folder);
+    let first = |window: &Headless| {
+        let textile = &window.workbench.bench.engine_scene.loaded.textiles()[0];
+        (textile.id().to_owned(), textile.content_hash().unwrap())
+    };
+    let placed = first(&window);
+    let path = folder.join("a.scene.toml");
+    let save = FileCommand::Use(Purpose::SaveScene, path.clone());
+    do_now(&mut window, save.clone());
+    let saved = std::fs::read_to_string(&path).unwrap();
+    assert!(saved.contains(&placed.1), "{saved}");
+    let listen = LibraryCommand::Listen(new_textile(&placed.0, 1), Pane::Lab);
+    do_now(&mut window, listen);
+    let new = first(&window);
+    assert!(new.0 == placed.0 && new.1 != placed.1, "{new:?} {placed:?}");
+    do_now(&mut window, save);
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), saved);
+    let namesake = LibraryCommand::CompareWith(0, placed.0.clone());
+    do_now(&mut window, namesake);
+    assert_eq!(first(&window), placed, "the library's own");
+    do_now(&mut window, LibraryCommand::Feel(0));
+    assert_eq!(first(&window), new);
+    do_now(&mut window, Command::Dismiss);
+    assert_eq!(first(&window), placed);
 }
 
 #[test]

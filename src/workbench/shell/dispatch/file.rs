@@ -131,10 +131,12 @@ impl Workbench {
     }
 
     fn save_scene(&mut self, path: &Path) {
-        let mut contents = self.bench.engine_scene.loaded.contents();
-        // What is only listened to is no part of it.
-        let placed = &self.bench.document.scene().textiles;
-        contents.retain(|id, _| placed.iter().any(|one| one.id == *id));
+        // While another textile is listened to, its own are not at hand: what was stated stays.
+        let contents = if self.bench.library.acts.listening.is_some() {
+            self.bench.document.scene().contents.clone()
+        } else {
+            self.bench.engine_scene.loaded.contents()
+        };
         match self.bench.document.save_as(path, contents) {
             Ok(()) => {
                 self.shell.ask = None;
