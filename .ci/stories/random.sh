@@ -41,7 +41,7 @@ connect() {
   slowly "mousemove $port" 'click 1' "type --delay 30 '$work/array'" 'key Return'
   await 20 grep -q READY "$work/device.csv" || fail "the device was never found"
   sleep 1
-  slowly "mousemove $arm" 'click 1'
+  slowly "mousemove $arm" 'click 1' 'key r'
 }
 # The program may have been told to close: it ends well, and is begun again.
 begin_again() {
