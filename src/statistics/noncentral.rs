@@ -3,13 +3,11 @@
 
 use statrs::function::{beta, gamma};
 
+use super::detection::inverted;
 use super::distribution::{ln_gamma, normal_lower};
-use selvedge_foundation::numerics::bisected;
 
 /// The tail to either side: 95 % lie between.
 const TAIL: f64 = 0.025;
-/// Halvings of where a noncentrality may lie.
-const N_HALVINGS: u32 = 48;
 /// Steps of Simpson's rule over a standard deviation's own distribution.
 const N_STEPS: u32 = 200;
 /// Terms of a sum that are as small are left out.
@@ -57,7 +55,7 @@ fn at_least_none(seen: f64, lower: impl Fn(f64) -> f64) -> [f64; 2] {
 
 /// Where a falling function crosses 0.
 fn solved(ends: [f64; 2], of: impl Fn(f64) -> f64) -> f64 {
-    bisected(ends, N_HALVINGS, |middle| of(middle) > 0.0)
+    inverted(|noncentrality| -of(noncentrality), 0.0, ends)
 }
 
 /// P(T ≤ t): the normal's share below t·s − δ, over s = √(χ²/df).

@@ -82,6 +82,7 @@ pub fn studies() -> Vec<Study> {
         models::FOURIER,
         models::RESTORATION,
         models::RESAMPLING,
+        models::DRAWN,
         models::PROBE,
         readers::STUDY,
         shading::STUDY,

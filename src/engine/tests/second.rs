@@ -112,6 +112,23 @@ fn each_device_plays_what_its_own_display_feels() {
 }
 
 #[test]
+fn a_hanging_cloth_reaches_each_device_under_its_own_finger() {
+    let mut hands = Hands::armed();
+    hands.moves = [false; 2];
+    let (mut feed, drive) = ClothDrive::new();
+    hands.send(Command::SetCloth(Some(Box::new(drive))));
+    for touched in [[true, true], [true, false], [false, true], [false, false]] {
+        let given = touched.map(|is_touched| [[f64::from(is_touched); 2]; 24]);
+        for _ in 0..A_WHILE {
+            feed.give(&given);
+            hands.go(1);
+        }
+        let output = hands.output();
+        assert_eq!(output.map(|sum| sum > 0), touched, "{output:?}");
+    }
+}
+
+#[test]
 fn a_stop_and_a_disarm_end_both() {
     for how in [Command::StopAll, Command::Disarm] {
         let mut hands = Hands::armed();

@@ -47,19 +47,40 @@ pub struct Choice {
     pub interval: Computed<Interval>,
 }
 
-/// The place where a rising function reaches `target`, by halving to 1e-12.
+/// The place where a rising function reaches `target`, to 1e-12: by false position,
+/// truncated towards the middle and held so near to it that no more steps are taken than one
+/// beyond those of halving (ITP, Oliveira & Takahashi 2020).
 pub(crate) fn inverted(
     function: impl Fn(f64) -> f64,
     target: f64,
     [mut low, mut high]: [f64; 2],
 ) -> f64 {
+    let off = |place: f64| function(place) - target;
+    let width = high - low;
+    let [mut below, mut above] = [off(low), off(high)];
+    // How wide the bracket may be, in halvings.
+    let mut may_be = 2.0 * width;
     while high - low > 1e-12 * high.abs().max(1.0) {
-        let middle = 0.5 * (low + high);
-        if function(middle) < target {
-            low = middle;
+        let (half, middle) = (0.5 * (high - low), 0.5 * (low + high));
+        let crossed = (high * below - low * above) / (below - above);
+        let inwards = (middle - crossed).signum();
+        let truncated = crossed + inwards * 0.2 * (high - low).powi(2) / width;
+        let is_beyond = (middle - truncated) * inwards <= 0.0;
+        let reach = 0.5 * may_be - half;
+        let next = if is_beyond || crossed.is_nan() {
+            middle
+        } else if (truncated - middle).abs() <= reach {
+            truncated
         } else {
-            high = middle;
+            middle - inwards * reach
+        };
+        let value = off(next);
+        if value < 0.0 {
+            (low, below) = (next, value);
+        } else {
+            (high, above) = (next, value);
         }
+        may_be *= 0.5;
     }
     0.5 * (low + high)
 }

@@ -4,6 +4,7 @@
 //! Each is set beside a truth that is known: an exponent, a sum of waves, a formula.
 
 mod brownian;
+mod drawn;
 mod fourier;
 mod probe;
 mod resampling;
@@ -12,6 +13,7 @@ mod restoration;
 mod tests;
 
 pub(crate) use brownian::STUDY as BROWNIAN;
+pub(crate) use drawn::STUDY as DRAWN;
 pub(crate) use fourier::STUDY as FOURIER;
 pub(crate) use probe::STUDY as PROBE;
 pub(crate) use resampling::STUDY as RESAMPLING;

@@ -15,7 +15,7 @@ fn error(findings: &Findings, method: &str, setting: &str, case: &str) -> f64 {
 
 #[test]
 fn every_quick_study_repeats_and_keeps_its_promises() {
-    let studies = [BROWNIAN, FOURIER, RESTORATION, PROBE];
+    let studies = [BROWNIAN, FOURIER, RESTORATION, DRAWN, PROBE];
     for study in studies {
         let start_s = thread_cpu_seconds();
         let (first, second) = (quick(&study, 3), quick(&study, 3));

@@ -190,6 +190,11 @@ impl Source {
         self.keys().model().ok().flatten()?.height_map()
     }
 
+    /// The relief of a model with points about so far apart, mm; `None` for what is no recipe.
+    pub fn relief(&self, step_mm: f64) -> Option<Result<HeightMap, SurfaceError>> {
+        Some(self.keys().model().ok().flatten()?.relief(step_mm))
+    }
+
     /// This is no recipe: what would be.
     pub(crate) fn no_recipe(&self, path: &Path) -> TextileError {
         let mut kinds: Vec<String> = RECIPES

@@ -4,7 +4,7 @@
 use super::presented::{arm, begun_on_array, present, rows};
 use super::*;
 use crate::tools::drape::Draping;
-use eframe::egui::{Event, Id, Modifiers, PointerButton, Pos2, vec2};
+use eframe::egui::{Event, Id, Modifiers, PointerButton, Pos2, ViewportId, vec2};
 use selvedge_experiment::Validity;
 
 fn draping(window: &mut Headless) -> &mut Draping {
@@ -78,6 +78,27 @@ fn a_cloth_that_hangs_is_rated_once_it_was_rubbed_and_nothing_else_is_shown() {
     window.pass(4);
     assert_eq!(key(&mut window), None, "what hung before");
     assert!(!window.workbench.bench.live.is_cloth);
+}
+
+#[test]
+fn a_cloth_hangs_in_the_participants_own_window_and_is_rubbed_there() {
+    let folder = Folder::new("hanging-apart");
+    let mut window = begun_on_array(&folder, "rating-hanging");
+    window.pass(40);
+    experiment_mut(&mut window).window.is_open = true;
+    window.pass(2);
+    arm(&mut window);
+    present(&mut window);
+    window.pass(20);
+    // Without a display a second window is one within the first.
+    let own = Id::unique(ViewportId::from_hash_of("participant"));
+    let own = window.ctx.memory(|memory| memory.area_rect(own)).unwrap();
+    let hung = window.ctx.read_response(Id::unique("Hanging cloth"));
+    let hung = hung.unwrap().rect;
+    assert!(own.contains_rect(hung), "{hung} in {own}");
+    rub(&mut window, 160);
+    let missing = session(&window).missing();
+    assert!(missing.is_none_or(|line| !line.contains("not rubbed")));
 }
 
 #[test]
