@@ -11,7 +11,9 @@ use std::f64::consts::TAU;
 
 use super::coarse::{resampled, sizes};
 use super::error::ShadingError;
-use super::reflectance::{Lambert, across, along, laplacian, residual};
+use super::reflectance::{
+    Lambert, across, across_row, along, along_row, laplacian, laplacian_row, residual,
+};
 use super::shape::{Found, ShadingOptions};
 use super::{Light, linear};
 use selvedge_foundation::numerics::{Grid, PlaneTransform};
@@ -216,13 +218,18 @@ impl Fit<'_> {
 
     /// What is made least.
     fn cost(&self, z: &Grid<f64>) -> f64 {
-        let (p, q) = (along(z), across(z));
-        let slopes = p.values().iter().zip(q.values());
-        let pairs = self.brightness.values().iter().zip(slopes);
-        let misfit: f64 = pairs
-            .map(|(e, (p, q))| (e / self.albedo - self.matt.of(*p, *q).max(0.0)).powi(2))
-            .sum();
-        misfit + self.smoothness * squares(&laplacian(z)) + TIKHONOV * squares(z)
+        let [mut p, mut q, mut bent] = [(); 3].map(|()| vec![0.0; z.width()]);
+        let (mut misfit, mut curved) = (0.0, 0.0);
+        for row in 0..z.height() {
+            along_row(z, row, &mut p);
+            across_row(z, row, &mut q);
+            laplacian_row(z, row, &mut bent);
+            let pairs = self.brightness.row(row).iter().zip(p.iter().zip(&q));
+            let left = pairs.map(|(e, (p, q))| e / self.albedo - self.matt.of(*p, *q).max(0.0));
+            misfit += left.map(|left| left * left).sum::<f64>();
+            curved += bent.iter().map(|bend| bend * bend).sum::<f64>();
+        }
+        misfit + self.smoothness * curved + TIKHONOV * squares(z)
     }
 
     /// One Gauss–Newton step, halved until it lowers the cost, which is handed back; none if
@@ -267,6 +274,7 @@ impl Fit<'_> {
     ) -> Result<Grid<f64>, ShadingError> {
         let shift = TIKHONOV + self.damping;
         let mean = tangent.mean_problem(self.smoothness, shift);
+        let mut normal = Normal::of(tangent, [self.smoothness, shift]);
         let mut x = Grid::filled(right.width(), right.height(), 0.0);
         let mut y = self.divided(&right, &mean);
         let mut way = y.clone();
@@ -278,15 +286,13 @@ impl Fit<'_> {
             }
             progress.step(share, "fitting heights")?;
             self.n_rounds += 1;
-            let mut image = tangent.back(&tangent.forth(&way));
-            add(&mut image, self.smoothness, &laplacian(&laplacian(&way)));
-            add(&mut image, shift, &way);
-            let length = now / dot(&way, &image);
+            let image = normal.times(&way);
+            let length = now / dot(&way, image);
             if !length.is_finite() {
                 break;
             }
             add(&mut x, length, &way);
-            add(&mut right, -length, &image);
+            add(&mut right, -length, image);
             y = self.divided(&right, &mean);
             let next = dot(&right, &y);
             let keep = next / now;
@@ -309,17 +315,6 @@ impl Fit<'_> {
 }
 
 impl Tangent {
-    /// J: the change of brightness with a change of heights.
-    fn forth(&self, change: &Grid<f64>) -> Grid<f64> {
-        let (mut bright, q) = (along(change), across(change));
-        let weights = self.by_p.values().iter().zip(self.by_q.values());
-        let pairs = weights.zip(q.values());
-        for (value, ((dp, dq), q)) in bright.values_mut().iter_mut().zip(pairs) {
-            *value = dp * *value + dq * q;
-        }
-        bright
-    }
-
     /// Jᵀ. Central differences over what repeats are their own transpose with the other sign.
     fn back(&self, bright: &Grid<f64>) -> Grid<f64> {
         let weighted = |by: &Grid<f64>| {
@@ -348,6 +343,63 @@ impl Tangent {
             let slope = pp * sx * sx + qq * sy * sy + 2.0 * pq * sx * sy;
             slope.max(0.0) + smoothness * bend * bend + shift
         })
+    }
+}
+
+/// `JᵀJ + λ∇⁴ + μ`, and room for its parts.
+struct Normal<'a> {
+    tangent: &'a Tangent,
+    /// λ and μ.
+    weights: [f64; 2],
+    /// The change of brightness by the derivatives by p and by q; the Laplacian; the product.
+    parts: [Grid<f64>; 4],
+    /// A row of two differences.
+    rows: [Vec<f64>; 2],
+}
+
+impl<'a> Normal<'a> {
+    fn of(tangent: &'a Tangent, weights: [f64; 2]) -> Self {
+        let (width, height) = (tangent.by_p.width(), tangent.by_p.height());
+        Self {
+            tangent,
+            weights,
+            parts: [(); 4].map(|()| Grid::filled(width, height, 0.0)),
+            rows: [(); 2].map(|()| vec![0.0; width]),
+        }
+    }
+
+    /// Its product with a change of heights.
+    fn times(&mut self, change: &Grid<f64>) -> &Grid<f64> {
+        let Self {
+            tangent,
+            weights,
+            parts,
+            rows,
+        } = self;
+        let ([of_p, of_q, bent, product], [p, q]) = (parts, rows);
+        for row in 0..change.height() {
+            along_row(change, row, p);
+            across_row(change, row, q);
+            laplacian_row(change, row, bent.row_mut(row));
+            let by = tangent.by_p.row(row).iter().zip(tangent.by_q.row(row));
+            let slopes = p.iter().zip(q.iter());
+            let of = of_p.row_mut(row).iter_mut().zip(of_q.row_mut(row));
+            for ((of_p, of_q), ((by_p, by_q), (p, q))) in of.zip(by.zip(slopes)) {
+                let bright = by_p * p + by_q * q;
+                (*of_p, *of_q) = (-by_p * bright, -by_q * bright);
+            }
+        }
+        for row in 0..change.height() {
+            let into = product.row_mut(row);
+            along_row(of_p, row, into);
+            across_row(of_q, row, p);
+            laplacian_row(bent, row, q);
+            let parts = p.iter().zip(q.iter()).zip(change.row(row));
+            for (sum, ((across, bent), z)) in into.iter_mut().zip(parts) {
+                *sum += across + weights[0] * bent + weights[1] * z;
+            }
+        }
+        product
     }
 }
 
