@@ -149,9 +149,11 @@ impl ReliefArgs {
     }
 
     fn options(&self) -> ShadingOptions {
+        // Of a textile whose method is not chosen another relief is kept than the first.
+        let is_first_alone = self.textile.is_some() && self.shading.is_none();
         ShadingOptions {
             method: self.shading.unwrap_or_default(),
-            iterations: self.iterations,
+            iterations: self.iterations.or(is_first_alone.then_some(1)),
             ..ShadingOptions::default()
         }
     }

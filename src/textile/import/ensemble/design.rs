@@ -100,28 +100,19 @@ pub(super) fn drawn(lamp: Lamp) -> Vec<Member> {
 }
 
 impl Member {
-    pub(super) fn shape(
+    /// Levels, the share of the picture that it does not explain, and its relief.
+    pub(super) fn tried(
         &self,
         brightness: &Brightness,
-        progress: &mut Progress<'_>,
-    ) -> Result<Shape, TextileError> {
+        about: &PictureTextile,
+    ) -> Result<([[f64; 2]; 2], f64, Shape), TextileError> {
         let options = ShadingOptions {
             method: self.method,
             regulariser: Some(self.regulariser),
             ..ShadingOptions::default()
         };
-        Ok(brightness.shape(self.light, &options, progress)?)
-    }
-
-    pub(super) fn tried(
-        &self,
-        brightness: &Brightness,
-        about: &PictureTextile,
-    ) -> Result<([[f64; 2]; 2], f64), TextileError> {
-        let shape = Progress::unheard(|progress| self.shape(brightness, progress))?;
-        Ok((
-            about.levels_db(&shape)?,
-            shape.unexplained(&brightness.values),
-        ))
+        let shape = Progress::unheard(|p| brightness.shape(self.light, &options, p))?;
+        let unexplained = shape.unexplained(&brightness.values);
+        Ok((about.levels_db(&shape)?, unexplained, shape))
     }
 }
