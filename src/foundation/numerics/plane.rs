@@ -24,34 +24,44 @@ impl PlaneTransform {
     /// `X_{k,l}`: columns k = 0 … ⌊width/2⌋, rows l = 0 … height − 1. `grid` has the transform's
     /// size.
     pub fn forward(&self, grid: &Grid<f64>) -> Grid<Complex> {
-        let n = self.across.len();
-        let mut spectrum = Grid::filled(self.along.len() / 2 + 1, n, Complex::default());
+        let (width, height) = (self.along.len() / 2 + 1, self.across.len());
+        let mut spectrum = Grid::filled(width, height, Complex::default());
+        self.forward_into(grid, &mut spectrum);
+        spectrum
+    }
+
+    /// [`Self::forward`] into a spectrum of the transform's size.
+    pub fn forward_into(&self, grid: &Grid<f64>, spectrum: &mut Grid<Complex>) {
         let mut room = self.along.room();
-        for row in 0..n {
+        for row in 0..self.across.len() {
             let into = spectrum.row_mut(row);
             self.along.forward_into(grid.row(row), into, &mut room);
         }
-        in_columns(&mut spectrum, self.across.room(), |columns, room| {
+        in_columns(spectrum, self.across.room(), |columns, room| {
             self.across.forward(columns, room);
         });
-        spectrum
     }
 
     /// The grid whose forward transform is `spectrum` (with the factor 1/(width·height)).
     pub fn inverse(&self, mut spectrum: Grid<Complex>) -> Grid<f64> {
+        let mut grid = Grid::filled(self.along.len(), self.across.len(), 0.0);
+        self.inverse_into(&mut spectrum, &mut grid);
+        grid
+    }
+
+    /// [`Self::inverse`] into a grid of the transform's size. `spectrum` is destroyed.
+    pub fn inverse_into(&self, spectrum: &mut Grid<Complex>, grid: &mut Grid<f64>) {
         let n = self.across.len();
         let scale = 1.0 / n as f64;
-        in_columns(&mut spectrum, self.across.room(), |columns, room| {
+        in_columns(spectrum, self.across.room(), |columns, room| {
             self.across.inverse(columns, room);
             columns.iter_mut().for_each(|x| *x *= scale);
         });
-        let mut grid = Grid::filled(self.along.len(), n, 0.0);
         let mut room = self.along.room();
         for row in 0..n {
             let (from, into) = (spectrum.row_mut(row), grid.row_mut(row));
             self.along.inverse_into(from, into, &mut room);
         }
-        grid
     }
 }
 

@@ -7,16 +7,15 @@
 //! broad forms are found first, which keeps steep weaves out of wrong valleys and is cheap. The
 //! albedo is fitted between steps. A tile is done when a step hardly lowers the sum any more.
 
-use std::f64::consts::TAU;
-
 use super::coarse::{resampled, sizes};
 use super::error::ShadingError;
 use super::reflectance::{
     Lambert, across, across_row, along, along_row, laplacian, laplacian_row, residual,
 };
 use super::shape::{Found, ShadingOptions};
+use super::tangent::{Normal, Tangent, add, dot, product, squares};
 use super::{Light, linear};
-use selvedge_foundation::numerics::{Grid, PlaneTransform};
+use selvedge_foundation::numerics::{Complex, Grid, PlaneTransform};
 use selvedge_foundation::progress::Progress;
 
 /// Weight of squared curvature unless stated, and at first.
@@ -49,14 +48,6 @@ struct Fit<'a> {
     z: Grid<f64>,
     /// Rounds of conjugate gradients so far.
     n_rounds: usize,
-}
-
-/// The reflectance about the surface as it is.
-struct Tangent {
-    by_p: Grid<f64>,
-    by_q: Grid<f64>,
-    /// E/a − R.
-    missing: Grid<f64>,
 }
 
 /// How the weight of curvature falls over the iterations on one tile.
@@ -200,22 +191,6 @@ impl Fit<'_> {
         }
     }
 
-    fn tangent(&self) -> Tangent {
-        let (mut by_p, mut by_q) = (along(&self.z), across(&self.z));
-        let mut missing = self.brightness.clone();
-        let slopes = by_p.values_mut().iter_mut().zip(by_q.values_mut());
-        for (e, (p, q)) in missing.values_mut().iter_mut().zip(slopes) {
-            let [bright, dp, dq] = self.matt.with_slopes(*p, *q);
-            *e = *e / self.albedo - bright;
-            (*p, *q) = (dp, dq);
-        }
-        Tangent {
-            by_p,
-            by_q,
-            missing,
-        }
-    }
-
     /// What is made least.
     fn cost(&self, z: &Grid<f64>) -> f64 {
         let [mut p, mut q, mut bent] = [(); 3].map(|()| vec![0.0; z.width()]);
@@ -224,10 +199,11 @@ impl Fit<'_> {
             along_row(z, row, &mut p);
             across_row(z, row, &mut q);
             laplacian_row(z, row, &mut bent);
-            let pairs = self.brightness.row(row).iter().zip(p.iter().zip(&q));
-            let left = pairs.map(|(e, (p, q))| e / self.albedo - self.matt.of(*p, *q).max(0.0));
-            misfit += left.map(|left| left * left).sum::<f64>();
-            curved += bent.iter().map(|bend| bend * bend).sum::<f64>();
+            for (e, (p, q)) in self.brightness.row(row).iter().zip(p.iter_mut().zip(&q)) {
+                *p = e / self.albedo - self.matt.of(*p, *q).max(0.0);
+            }
+            misfit += product(&p, &p);
+            curved += product(&bent, &bent);
         }
         misfit + self.smoothness * curved + TIKHONOV * squares(z)
     }
@@ -240,7 +216,7 @@ impl Fit<'_> {
         progress: &mut Progress<'_>,
         share: f64,
     ) -> Result<f64, ShadingError> {
-        let tangent = self.tangent();
+        let tangent = Tangent::of(self.brightness, self.albedo, (&self.z, self.matt));
         let mut down = tangent.back(&tangent.missing);
         let bent = laplacian(&laplacian(&self.z));
         add(&mut down, -self.smoothness, &bent);
@@ -273,10 +249,12 @@ impl Fit<'_> {
         share: f64,
     ) -> Result<Grid<f64>, ShadingError> {
         let shift = TIKHONOV + self.damping;
-        let mean = tangent.mean_problem(self.smoothness, shift);
+        let inverse = tangent.mean_problem(self.smoothness, shift);
         let mut normal = Normal::of(tangent, [self.smoothness, shift]);
-        let mut x = Grid::filled(right.width(), right.height(), 0.0);
-        let mut y = self.divided(&right, &mean);
+        let (width, height) = (right.width(), right.height());
+        let [mut x, mut y] = [(); 2].map(|()| Grid::filled(width, height, 0.0));
+        let mut waves = inverse.map(|_| Complex::default());
+        self.divided(&right, &inverse, (&mut waves, &mut y));
         let mut way = y.clone();
         let first = dot(&right, &y);
         let mut now = first;
@@ -293,7 +271,7 @@ impl Fit<'_> {
             }
             add(&mut x, length, &way);
             add(&mut right, -length, image);
-            y = self.divided(&right, &mean);
+            self.divided(&right, &inverse, (&mut waves, &mut y));
             let next = dot(&right, &y);
             let keep = next / now;
             for (w, y) in way.values_mut().iter_mut().zip(y.values()) {
@@ -304,115 +282,17 @@ impl Fit<'_> {
         Ok(x)
     }
 
-    /// Divided by the transform of the mean problem.
-    fn divided(&self, right: &Grid<f64>, mean: &Grid<f64>) -> Grid<f64> {
-        let mut spectrum = self.transform.forward(right);
-        for (f, weight) in spectrum.values_mut().iter_mut().zip(mean.values()) {
-            *f /= *weight;
+    /// Divided by the transform of the mean problem, of which the inverse is given.
+    fn divided(
+        &self,
+        right: &Grid<f64>,
+        inverse: &Grid<f64>,
+        (waves, into): (&mut Grid<Complex>, &mut Grid<f64>),
+    ) {
+        self.transform.forward_into(right, waves);
+        for (f, weight) in waves.values_mut().iter_mut().zip(inverse.values()) {
+            *f *= *weight;
         }
-        self.transform.inverse(spectrum)
+        self.transform.inverse_into(waves, into);
     }
-}
-
-impl Tangent {
-    /// Jᵀ. Central differences over what repeats are their own transpose with the other sign.
-    fn back(&self, bright: &Grid<f64>) -> Grid<f64> {
-        let weighted = |by: &Grid<f64>| {
-            let mut product = bright.clone();
-            for (value, weight) in product.values_mut().iter_mut().zip(by.values()) {
-                *value *= -weight;
-            }
-            product
-        };
-        let mut change = along(&weighted(&self.by_p));
-        add(&mut change, 1.0, &across(&weighted(&self.by_q)));
-        change
-    }
-
-    /// The transform of `JᵀJ` + λ∇⁴ + μ with J's weights in the mean.
-    fn mean_problem(&self, smoothness: f64, shift: f64) -> Grid<f64> {
-        let n = self.by_p.values().len().max(1) as f64;
-        let [pp, qq] = [&self.by_p, &self.by_q].map(|by| squares(by) / n);
-        let pq = dot(&self.by_p, &self.by_q) / n;
-        let (width, height) = (self.by_p.width(), self.by_p.height());
-        Grid::from_fn(width / 2 + 1, height, |column, row| {
-            let x = TAU * column as f64 / width as f64;
-            let y = TAU * row as f64 / height as f64;
-            let [sx, sy] = [x.sin(), y.sin()];
-            let bend = 2.0 * x.cos() + 2.0 * y.cos() - 4.0;
-            let slope = pp * sx * sx + qq * sy * sy + 2.0 * pq * sx * sy;
-            slope.max(0.0) + smoothness * bend * bend + shift
-        })
-    }
-}
-
-/// `JᵀJ + λ∇⁴ + μ`, and room for its parts.
-struct Normal<'a> {
-    tangent: &'a Tangent,
-    /// λ and μ.
-    weights: [f64; 2],
-    /// The change of brightness by the derivatives by p and by q; the Laplacian; the product.
-    parts: [Grid<f64>; 4],
-    /// A row of two differences.
-    rows: [Vec<f64>; 2],
-}
-
-impl<'a> Normal<'a> {
-    fn of(tangent: &'a Tangent, weights: [f64; 2]) -> Self {
-        let (width, height) = (tangent.by_p.width(), tangent.by_p.height());
-        Self {
-            tangent,
-            weights,
-            parts: [(); 4].map(|()| Grid::filled(width, height, 0.0)),
-            rows: [(); 2].map(|()| vec![0.0; width]),
-        }
-    }
-
-    /// Its product with a change of heights.
-    fn times(&mut self, change: &Grid<f64>) -> &Grid<f64> {
-        let Self {
-            tangent,
-            weights,
-            parts,
-            rows,
-        } = self;
-        let ([of_p, of_q, bent, product], [p, q]) = (parts, rows);
-        for row in 0..change.height() {
-            along_row(change, row, p);
-            across_row(change, row, q);
-            laplacian_row(change, row, bent.row_mut(row));
-            let by = tangent.by_p.row(row).iter().zip(tangent.by_q.row(row));
-            let slopes = p.iter().zip(q.iter());
-            let of = of_p.row_mut(row).iter_mut().zip(of_q.row_mut(row));
-            for ((of_p, of_q), ((by_p, by_q), (p, q))) in of.zip(by.zip(slopes)) {
-                let bright = by_p * p + by_q * q;
-                (*of_p, *of_q) = (-by_p * bright, -by_q * bright);
-            }
-        }
-        for row in 0..change.height() {
-            let into = product.row_mut(row);
-            along_row(of_p, row, into);
-            across_row(of_q, row, p);
-            laplacian_row(bent, row, q);
-            let parts = p.iter().zip(q.iter()).zip(change.row(row));
-            for (sum, ((across, bent), z)) in into.iter_mut().zip(parts) {
-                *sum += across + weights[0] * bent + weights[1] * z;
-            }
-        }
-        product
-    }
-}
-
-fn add(to: &mut Grid<f64>, factor: f64, from: &Grid<f64>) {
-    for (value, other) in to.values_mut().iter_mut().zip(from.values()) {
-        *value += factor * other;
-    }
-}
-
-fn dot(a: &Grid<f64>, b: &Grid<f64>) -> f64 {
-    a.values().iter().zip(b.values()).map(|(a, b)| a * b).sum()
-}
-
-fn squares(a: &Grid<f64>) -> f64 {
-    dot(a, a)
 }
