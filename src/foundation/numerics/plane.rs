@@ -55,7 +55,9 @@ impl PlaneTransform {
         let scale = 1.0 / n as f64;
         in_columns(spectrum, self.across.room(), |columns, room| {
             self.across.inverse(columns, room);
-            columns.iter_mut().for_each(|x| *x *= scale);
+            for x in columns {
+                *x *= scale;
+            }
         });
         let mut room = self.along.room();
         for row in 0..n {

@@ -22,12 +22,13 @@ use selvedge_foundation::progress::Progress;
 
 /// Shares of the belief below either end of a band.
 const ENDS: [f64; 2] = [0.16, 0.84];
-/// How far a member is off by itself, dB, by band: a standard deviation.
-const OWN_ERROR_DB: [f64; 2] = [2.0, 1.5];
+/// How far a member is off by itself, dB, by band: a standard deviation. With [`TRUST`] bands hold
+/// 74, 71 and 69 % of the truths of the known cloths of the study of routes, the light known, told
+/// wrong by 15° and unknown; of 2.0 and 1.5 dB, 61, 62 and 56 %.
+const OWN_ERROR_DB: [f64; 2] = [3.0, 2.5];
 /// Shading under slopes too steep for it and dark is deep err to opposite sides, so that the truth
-/// is rather between them: members' distances from their mean count by this share. With
-/// [`OWN_ERROR_DB`] so that bands hold about as many of the known cloths of the study of routes as
-/// they say.
+/// is rather between them: members' distances from their mean count by this share. With a half,
+/// bands hold 61, 59 and 59 %.
 const TRUST: f64 = 0.75;
 /// Shares of the picture that are left unexplained count against a light from here on.
 const NOISE_SHARE: f64 = 0.02;
@@ -98,7 +99,9 @@ impl Ensemble {
             }
         }
         let sum: f64 = felt.iter().map(|member| member.weight).sum();
-        felt.iter_mut().for_each(|member| member.weight /= sum);
+        for member in &mut felt {
+            member.weight /= sum;
+        }
         let kept = nearest_to_median(&felt);
         match failed {
             Some(error) if felt.is_empty() => Err(error),

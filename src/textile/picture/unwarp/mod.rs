@@ -65,7 +65,7 @@ pub(super) fn straight<E>(
     let [left, top, ..] = flat.place.map(|px| px as f64);
     let mut pattern = Pattern::new(&flat.tile, [left, top], lattice);
     let mut field = Field::level(luminance, &pattern);
-    let mut best = None;
+    let mut best: Option<Straight> = None;
     for round in 0..N_ROUNDS {
         step(round as f64 / N_ROUNDS as f64)?;
         let mut found = match round {
@@ -75,6 +75,8 @@ pub(super) fn straight<E>(
         found.smooth();
         field = found.field;
         let basis = field.take_mean_off(pattern.basis());
+        // One picture at a time: large ones fill the memory.
+        drop(best.take());
         let Some((unwarped, origin)) = field.unwarped(luminance, n_threads) else {
             return Ok(None);
         };
@@ -105,13 +107,13 @@ fn held_out(luminance: &Grid<f64>, basis: Basis, n_threads: usize) -> f64 {
         [[0, 0, w, h / 2], [0, h / 2, w, h - h / 2]],
     ];
     let share = |seen: [usize; 4], other: [usize; 4]| {
-        let (seen_part, other_part) = (luminance.part(seen)?, luminance.part(other)?);
-        let tile = Tile::fold(&seen_part, basis, n_threads);
+        let tile = Tile::fold(&luminance.part(seen)?, basis, n_threads);
+        let [x, y, width, height] = other;
         let origin = [0, 1].map(|axis| other[axis] as f64 - seen[axis] as f64);
         // Of every row the number, the sum, the sum of squares and what the tile leaves of them.
-        let mut rows = vec![[0.0; 4]; other_part.height()];
+        let mut rows = vec![[0.0; 4]; height];
         let work = |(): &mut (), row: usize, sums: &mut [[f64; 4]]| {
-            for (column, value) in (0_u32..).zip(other_part.row(row)) {
+            for (column, value) in (0_u32..).zip(&luminance.row(y + row)[x..x + width]) {
                 let at = [origin[0] + f64::from(column), origin[1] + row as f64];
                 let left = value - tile.at(basis.coordinates(at));
                 for (sum, term) in sums[0]
