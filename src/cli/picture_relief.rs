@@ -26,7 +26,7 @@ pub(super) struct ReliefArgs {
     /// +x (to the right) towards the light, y up; estimated if not said
     #[arg(long, value_name = "SLANT,TILT", value_parser = light_from, allow_hyphen_values = true)]
     light: Option<Light>,
-    /// Within how many degrees that is right (5)
+    /// Within how many degrees that is right (10)
     #[arg(long, value_name = "DEG", value_parser = positive, requires = "light")]
     light_within: Option<f64>,
     /// What is felt: the picture as it is, over and over; cloth synthesized of it, without a
@@ -149,9 +149,11 @@ impl ReliefArgs {
     }
 
     fn options(&self) -> ShadingOptions {
+        // Of a textile whose method is not chosen another relief is kept than the first.
+        let is_first_alone = self.textile.is_some() && self.shading.is_none();
         ShadingOptions {
             method: self.shading.unwrap_or_default(),
-            iterations: self.iterations,
+            iterations: self.iterations.or(is_first_alone.then_some(1)),
             ..ShadingOptions::default()
         }
     }
@@ -222,20 +224,22 @@ impl ReliefArgs {
             }
             None => None,
         };
-        let relief_um = match (about.scale, px_per_mm) {
-            (HeightScale::Unscaled, _) => None,
-            (HeightScale::ReliefUm(um), None) => Some(um),
-            _ => Some(PictureTextile::relief_um_of(&relief.shape, &about)?),
-        };
         let wants = self.textile.as_ref();
-        let files = wants.map(|_| {
+        let made = wants.map(|_| {
             let tile = found.map(|found| &found.tile);
             PictureTextile::files_of(&relief.shape, &relief.brightness, tile, &about)
         });
+        let made = made.transpose()?;
+        let relief_um = match (about.scale, px_per_mm, &made) {
+            (_, _, Some(made)) => Some(made.relief_um),
+            (HeightScale::Unscaled, ..) => None,
+            (HeightScale::ReliefUm(um), None, _) => Some(um),
+            _ => Some(PictureTextile::relief_um_of(&relief.shape, &about)?),
+        };
         Ok(Ok(Felt {
             relief,
             relief_um,
-            files: files.transpose()?.map(|made| made.files),
+            files: made.map(|made| made.files),
             advice,
         }))
     }

@@ -295,7 +295,7 @@ fn a_log_says_how_far_levels_of_its_textiles_may_be_off() {
     assert_eq!(known.len(), 1, "{known:?}: the other is measured");
     let words = known["fine"].as_str().unwrap();
     assert!(
-        words.contains("A40 -6.0 to +2.0 dB along the warp"),
+        words.contains("A40 −6.0 to +2.0 dB along the warp"),
         "{words}"
     );
 }

@@ -223,6 +223,55 @@ impl std::fmt::Debug for RealTransform {
     }
 }
 
+/// The DFT of a fixed number of complex samples, both ways, in place: of as many sequences, one
+/// after the other, as are given at once.
+#[derive(Clone)]
+pub(super) struct ComplexTransform {
+    forward: Arc<dyn Fft<f64>>,
+    inverse: Arc<dyn Fft<f64>>,
+}
+
+impl ComplexTransform {
+    /// The transform of `n` samples.
+    pub(super) fn new(n: usize) -> Self {
+        let mut planner = FftPlanner::new();
+        Self {
+            forward: planner.plan_fft_forward(n),
+            inverse: planner.plan_fft_inverse(n),
+        }
+    }
+
+    /// Samples of one sequence.
+    pub(super) fn len(&self) -> usize {
+        self.forward.len()
+    }
+
+    /// Room to work in, to be used again.
+    pub(super) fn room(&self) -> Vec<Complex> {
+        let both = [&self.forward, &self.inverse];
+        let n = both.map(|fft| fft.get_inplace_scratch_len());
+        vec![Complex::default(); n[0].max(n[1])]
+    }
+
+    /// `X_k = Σ_i x_i e^{−2πi·ki/n}`.
+    pub(super) fn forward(&self, samples: &mut [Complex], room: &mut [Complex]) {
+        self.forward.process_with_scratch(samples, room);
+    }
+
+    /// `x_i = Σ_k X_k e^{2πi·ki/n}`: without the factor 1/n.
+    pub(super) fn inverse(&self, spectrum: &mut [Complex], room: &mut [Complex]) {
+        self.inverse.process_with_scratch(spectrum, room);
+    }
+}
+
+impl std::fmt::Debug for ComplexTransform {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("ComplexTransform")
+            .field("len", &self.len())
+            .finish()
+    }
+}
+
 /// The Fourier sum of `n_samples` real samples at `n_bins` frequencies k·δ, k = 0 … `n_bins` − 1,
 /// where δ is any number of cycles a sample.
 ///

@@ -20,11 +20,11 @@ impl<T: Copy> Grid<T> {
 
     /// A grid of what `value` gives for every column and row, row by row.
     pub fn from_fn(width: usize, height: usize, mut value: impl FnMut(usize, usize) -> T) -> Self {
-        let places = (0..height).flat_map(|row| (0..width).map(move |column| (column, row)));
-        Self {
-            width,
-            values: places.map(|(column, row)| value(column, row)).collect(),
+        let mut values = Vec::with_capacity(width * height);
+        for row in 0..height {
+            values.extend((0..width).map(|column| value(column, row)));
         }
+        Self { width, values }
     }
 
     /// The same grid of other values.
@@ -64,10 +64,10 @@ impl<T: Copy> Grid<T> {
             n > 0 && from.checked_add(n).is_some_and(|end| end <= all)
         };
         let is_inside = holds(x, width, self.width()) && holds(y, height, self.height());
-        let rows = || (y..y + height).flat_map(|row| &self.row(row)[x..x + width]);
+        let row = |row: usize| &self.row(row)[x..x + width];
         is_inside.then(|| Self {
             width,
-            values: rows().copied().collect(),
+            values: (y..y + height).map(row).collect::<Vec<_>>().concat(),
         })
     }
 

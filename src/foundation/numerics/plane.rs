@@ -1,14 +1,15 @@
 //! The discrete Fourier transform of a grid of real numbers, both ways.
 //!
-//! Rows first, then columns; a complex column is transformed as its real and its imaginary part.
+//! Rows first, then columns.
 
+use super::fft::ComplexTransform;
 use super::{Complex, Grid, RealTransform};
 
 /// The DFT of a grid of fixed size: `X_{k,l} = Σ_{i,j} x_{i,j} e^{−2πi(ki/n_u + lj/n_w)}`.
 #[derive(Debug, Clone)]
 pub struct PlaneTransform {
     along: RealTransform,
-    across: RealTransform,
+    across: ComplexTransform,
 }
 
 impl PlaneTransform {
@@ -16,67 +17,65 @@ impl PlaneTransform {
     pub fn new(width: usize, height: usize) -> Self {
         Self {
             along: RealTransform::new(width),
-            across: RealTransform::new(height),
+            across: ComplexTransform::new(height),
         }
     }
 
     /// `X_{k,l}`: columns k = 0 … ⌊width/2⌋, rows l = 0 … height − 1. `grid` has the transform's
     /// size.
     pub fn forward(&self, grid: &Grid<f64>) -> Grid<Complex> {
-        let n = self.across.len();
-        let width = self.along.len() / 2 + 1;
-        let mut spectrum = Grid::filled(width, n, Complex::default());
-        for row in 0..n {
-            let transformed = self.along.forward(grid.row(row));
-            spectrum.row_mut(row).copy_from_slice(&transformed);
-        }
-        in_columns(&mut spectrum, |column| {
-            let re: Vec<f64> = column.iter().map(|x| x.re).collect();
-            let im: Vec<f64> = column.iter().map(|x| x.im).collect();
-            let (a, b) = (self.across.forward(&re), self.across.forward(&im));
-            for (row, value) in column.iter_mut().enumerate() {
-                let (a, b) = (whole(&a, row, n), whole(&b, row, n));
-                *value = Complex::new(a.re - b.im, a.im + b.re);
-            }
-        });
+        let (width, height) = (self.along.len() / 2 + 1, self.across.len());
+        let mut spectrum = Grid::filled(width, height, Complex::default());
+        self.forward_into(grid, &mut spectrum);
         spectrum
+    }
+
+    /// [`Self::forward`] into a spectrum of the transform's size.
+    pub fn forward_into(&self, grid: &Grid<f64>, spectrum: &mut Grid<Complex>) {
+        let mut room = self.along.room();
+        for row in 0..self.across.len() {
+            let into = spectrum.row_mut(row);
+            self.along.forward_into(grid.row(row), into, &mut room);
+        }
+        in_columns(spectrum, self.across.room(), |columns, room| {
+            self.across.forward(columns, room);
+        });
     }
 
     /// The grid whose forward transform is `spectrum` (with the factor 1/(width·height)).
     pub fn inverse(&self, mut spectrum: Grid<Complex>) -> Grid<f64> {
+        let mut grid = Grid::filled(self.along.len(), self.across.len(), 0.0);
+        self.inverse_into(&mut spectrum, &mut grid);
+        grid
+    }
+
+    /// [`Self::inverse`] into a grid of the transform's size. `spectrum` is destroyed.
+    pub fn inverse_into(&self, spectrum: &mut Grid<Complex>, grid: &mut Grid<f64>) {
         let n = self.across.len();
-        let half = n / 2 + 1;
-        let (mut a, mut b) = (
-            vec![Complex::default(); half],
-            vec![Complex::default(); half],
-        );
-        in_columns(&mut spectrum, |column| {
-            for row in 0..half {
-                let here = column[row];
-                let there = column[(n - row) % n].conj();
-                a[row] = 0.5 * (here + there);
-                let odd = 0.5 * (here - there);
-                b[row] = Complex::new(odd.im, -odd.re);
-            }
-            let (re, im) = (self.across.inverse(&a), self.across.inverse(&b));
-            for (value, (re, im)) in column.iter_mut().zip(re.iter().zip(&im)) {
-                *value = Complex::new(*re, *im);
+        let scale = 1.0 / n as f64;
+        in_columns(spectrum, self.across.room(), |columns, room| {
+            self.across.inverse(columns, room);
+            for x in columns {
+                *x *= scale;
             }
         });
-        let mut grid = Grid::filled(self.along.len(), n, 0.0);
+        let mut room = self.along.room();
         for row in 0..n {
-            let values = self.along.inverse(spectrum.row(row));
-            grid.row_mut(row).copy_from_slice(&values);
+            let (from, into) = (spectrum.row_mut(row), grid.row_mut(row));
+            self.along.inverse_into(from, into, &mut room);
         }
-        grid
     }
 }
 
 /// Columns that are taken out of a grid and put back together: as many as a cache line feeds.
 const N_TOGETHER: usize = 16;
 
-/// Does `work` on every column of a grid.
-fn in_columns(grid: &mut Grid<Complex>, mut work: impl FnMut(&mut [Complex])) {
+/// Does `work` on all columns of a grid, several at a time, one after the other.
+fn in_columns(
+    grid: &mut Grid<Complex>,
+    mut room: Vec<Complex>,
+    work: impl Fn(&mut [Complex], &mut [Complex]),
+) {
     let (width, height) = (grid.width(), grid.height());
     let mut columns = vec![Complex::default(); N_TOGETHER * height];
     for first in (0..width).step_by(N_TOGETHER) {
@@ -86,21 +85,12 @@ fn in_columns(grid: &mut Grid<Complex>, mut work: impl FnMut(&mut [Complex])) {
                 columns[i * height + row] = *value;
             }
         }
-        columns.chunks_exact_mut(height).take(n).for_each(&mut work);
+        work(&mut columns[..n * height], &mut room);
         for row in 0..height {
             for (i, value) in grid.row_mut(row)[first..first + n].iter_mut().enumerate() {
                 *value = columns[i * height + row];
             }
         }
-    }
-}
-
-/// `X_k` of a real sequence of `n` from the first half of its transform.
-fn whole(half: &[Complex], k: usize, n: usize) -> Complex {
-    if k < half.len() {
-        half[k]
-    } else {
-        half[n - k].conj()
     }
 }
 

@@ -77,6 +77,8 @@ pub struct MadeOfPicture {
     pub files: Vec<BuiltFile>,
     /// What is felt: the map over and over, or cloth that is synthesized of it.
     pub map: HeightMap,
+    /// From the lowest to the highest height of the map, µm.
+    pub relief_um: f64,
     /// What the tester records, by [`Direction::index`].
     pub profiles: ProfileSet,
 }
@@ -131,10 +133,12 @@ fn drawn(
     files.push(BuiltFile::new(PICTURE, bytes));
     let hash = Source::Picture(Box::new(keys.clone())).recipe_hash(path)?;
     keys.set_files(ProfileFiles::all(), Some(hash));
+    let relief_um = keys.relief_um;
     files.push(manifest_file(&manifest(keys), Path::new(MANIFEST))?);
     Ok(MadeOfPicture {
         files,
         map,
+        relief_um,
         profiles,
     })
 }
@@ -199,7 +203,7 @@ impl PictureTextile {
     }
 }
 
-/// The shape in µm.
+/// The shape in µm, by what the tester reads on what is felt of it.
 fn heights(
     shape: &Shape,
     about: &PictureTextile,
@@ -218,7 +222,10 @@ fn heights(
         .into());
     }
     let drawn = |map: &HeightMap| {
-        let measured = measured(map, &about.name);
+        let mut measured = measured(map, &about.name);
+        if let Some(synthesis) = keys.synthesis {
+            synthesis.extend(&mut measured, Path::new(MAP))?;
+        }
         keys.map().strokes(&measured, Path::new(MAP))
     };
     let step_mm = about.step_mm([width, height]);

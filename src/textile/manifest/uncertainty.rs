@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::TextileError;
 use crate::recipe::Checker;
 use crate::tactile::Band;
+use selvedge_foundation::quantity::fixed;
 
 /// The table `[uncertainty]`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -68,7 +69,12 @@ impl Uncertainty {
 
     /// From where to where, dB, as people read it.
     pub fn range_words([low_db, high_db]: [f64; 2]) -> String {
-        format!("{low_db:+.1} to {high_db:+.1}")
+        let signed = |db: f64| {
+            let words = fixed(db, 1);
+            let plus = if words.starts_with('−') { "" } else { "+" };
+            format!("{plus}{words}")
+        };
+        format!("{} to {}", signed(low_db), signed(high_db))
     }
 
     /// The mean of warp and weft of that.

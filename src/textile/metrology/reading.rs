@@ -104,8 +104,9 @@ impl Measured {
     }
 }
 
-/// Highest relief that is believed without a word, µm.
+/// Highest relief that is believed without a word, µm, and at all, mm.
 const MAX_RELIEF_UM: f64 = 1e5;
+const MAX_SPAN_MM: f64 = 1e6;
 
 /// A unit that a file states.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -204,10 +205,8 @@ impl Reading {
         let unit = self.decide(("heights", mend), &unit, asked.height_unit, path)?;
         let step_mm = self.step_mm(path, asked)?;
         for value in self.values.values_mut() {
-            *value *= unit.um();
-            if !value.is_finite() {
-                *value = f64::NAN;
-            }
+            let um = *value * unit.um();
+            *value = if um.is_finite() { um } else { f64::NAN };
         }
         if self.values.values().iter().all(|value| value.is_nan()) {
             return Err(TextileError::surface(path)(SurfaceError::AllMissing));
@@ -224,8 +223,12 @@ impl Reading {
             },
         };
         let [low, high] = measured.range_um();
+        let span_mm = (high - low) * 1e-3;
+        if span_mm > MAX_SPAN_MM {
+            let what = format!("heights span {span_mm:?} mm, more than a kilometre");
+            return Err(FileError::whole(path, what, "state their unit").into());
+        }
         if high - low > MAX_RELIEF_UM {
-            let span_mm = (high - low) * 1e-3;
             let line = format!("heights span {span_mm:.0} mm: their unit may be another");
             measured.warnings.push(line);
         }

@@ -145,13 +145,37 @@ impl Found {
         self.explained_variance < DRIFT * self.lattice.level
     }
 
-    /// Refines a lattice on a picture and averages its cells: from 0.8 of the whole work on.
+    /// Refines a lattice on a picture, averages its cells and lays bent cloth straight: from 0.8 of
+    /// the whole work on.
     ///
     /// # Errors
     /// The work was cancelled.
     pub fn of(
         luminance: &Grid<f64>,
-        colour: Option<&Grid<[f32; 2]>>,
+        colour: Option<&Grid<[u16; 2]>>,
+        lattice: Lattice,
+        n_threads: usize,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Cancelled> {
+        let mut found = Self::averaged(luminance, colour, lattice, n_threads, progress)?;
+        if !found.lies_flat() {
+            found.lay(luminance, n_threads, progress)?;
+        }
+        Ok(found)
+    }
+
+    /// Whether nothing is to be gained by laying it straight.
+    pub fn lies_flat(&self) -> bool {
+        self.explained_variance >= LIES_FLAT * self.lattice.level
+    }
+
+    /// Refines a lattice on a picture and averages its cells, bent as they may be.
+    ///
+    /// # Errors
+    /// The work was cancelled.
+    pub fn averaged(
+        luminance: &Grid<f64>,
+        colour: Option<&Grid<[u16; 2]>>,
         lattice: Lattice,
         n_threads: usize,
         progress: &mut Progress<'_>,
@@ -160,10 +184,9 @@ impl Found {
         let (whole, explained_variance) = Tile::refine(luminance, lattice.basis(), n_threads, all)?;
         let basis = whole.basis();
         let colour = PeriodicColour::of(&whole, colour, basis, n_threads);
-        let is_flat = explained_variance >= LIES_FLAT * lattice.level;
         let from_maxima = [lattice.p1_px, lattice.p2_px];
         let drifts = explained_variance < DRIFT * lattice.level;
-        let mut found = Self {
+        Ok(Self {
             lattice: if drifts {
                 lattice
             } else {
@@ -175,16 +198,14 @@ impl Found {
             explained_variance,
             unwarped: None,
             colour,
-        };
-        if !is_flat {
-            let bent = |progress: &mut Progress<'_>| found.lay(luminance, n_threads, progress);
-            progress.within([0.86, 1.0], bent)?;
-        }
-        Ok(found)
+        })
     }
 
-    /// Lays bent cloth straight, or looks for its flattest part.
-    fn lay(
+    /// Lays bent cloth straight, or looks for its flattest part: from 0.86 of the whole work on.
+    ///
+    /// # Errors
+    /// The work was cancelled.
+    pub fn lay(
         &mut self,
         luminance: &Grid<f64>,
         n_threads: usize,
@@ -192,12 +213,12 @@ impl Found {
     ) -> Result<(), Cancelled> {
         let wanted = LIES_FLAT * self.lattice.level;
         let basis = self.lattice.basis();
-        let parts = |share: f64| progress.step(0.5 * share, "looking for a flat part");
+        let parts = |share: f64| progress.step(0.86 + 0.07 * share, "looking for a flat part");
         let Some(flat) = flattest(luminance, basis, wanted, n_threads, parts)? else {
             return Ok(());
         };
         let lattices = (&self.lattice, self.tile.basis());
-        let bent = |share: f64| progress.step(0.5 + 0.5 * share, "laying bent cloth straight");
+        let bent = |share: f64| progress.step(0.93 + 0.07 * share, "laying bent cloth straight");
         let straight = unwarp::straight(luminance, lattices, &flat, n_threads, bent)?;
         let least = self.explained_variance.max(DRIFT * flat.explained_variance);
         match straight.filter(|all| all.explained_variance > least) {

@@ -24,7 +24,7 @@ impl PeriodicColour {
     /// Measures it; 0 of a grey picture.
     pub(crate) fn of(
         luminance: &Tile,
-        colour: Option<&Grid<[f32; 2]>>,
+        colour: Option<&Grid<[u16; 2]>>,
         basis: Basis,
         n_threads: usize,
     ) -> Self {
@@ -36,8 +36,8 @@ impl PeriodicColour {
                 0.0
             }
         };
-        let channel = |colours: &Grid<[f32; 2]>, i: usize| {
-            let grid = colours.map(|colour| f64::from(colour[i]));
+        let channel = |colours: &Grid<[u16; 2]>, i: usize| {
+            let grid = colours.map(|colour| f64::from(colour[i]) / f64::from(u16::MAX));
             let variance = mean_and_variance(&Tile::fold(&grid, basis, n_threads).values).1;
             3.0 * variance.sqrt()
         };

@@ -1,5 +1,6 @@
 //! Uneven light: what varies over the whole picture is divided out.
 
+use super::source::between;
 use selvedge_foundation::numerics::{Grid, to_index};
 
 /// The smooth part is taken over this share of the shorter side unless a radius is said.
@@ -8,6 +9,10 @@ const SHARE_OF_SIDE: f64 = 0.125;
 const MIN_SHARE: f64 = 0.01;
 /// The smooth part is never taken as darker than this share of the mean.
 const DARKEST: f64 = 0.05;
+/// A standard deviation of the smooth part is at least so many blocks, and a side so many: a block
+/// widens it by 1/24 of their square, by a six-thousandth.
+const BLOCKS_A_SIGMA: f64 = 16.0;
+const MIN_BLOCKS: f64 = 64.0;
 /// Three box filters in a row are about a Gaussian.
 const N_PASSES: usize = 3;
 
@@ -31,16 +36,36 @@ pub fn even_light(mut luminance: Grid<f64>, how: EvenLight) -> (Grid<f64>, bool)
         EvenLight::Auto => SHARE_OF_SIDE * side,
         EvenLight::Radius(sigma) => sigma,
     };
-    let smooth = smoothed(&luminance, sigma);
+    // What is smooth is known by the means of blocks that are small beside it.
+    let most = to_index(side / MIN_BLOCKS).max(1);
+    let block = to_index(sigma / BLOCKS_A_SIGMA).clamp(1, most);
+    let smooth = smoothed(blocks(&luminance, block), sigma / block as f64);
     let (mean, variance) = mean_and_variance(&luminance);
     let is_even = mean_and_variance(&smooth).1 < MIN_SHARE * variance;
     if mean <= 0.0 || (how == EvenLight::Auto && is_even) {
         return (luminance, false);
     }
-    for (value, light) in luminance.values_mut().iter_mut().zip(smooth.values()) {
-        *value *= mean / light.max(DARKEST * mean);
+    let place = |px: usize| (px as f64 + 0.5) / block as f64 - 0.5;
+    for row in 0..luminance.height() {
+        for (column, value) in luminance.row_mut(row).iter_mut().enumerate() {
+            let at = [place(column), place(row)];
+            let light = between(&smooth, at, |a, b, share| a + (b - a) * share);
+            *value *= mean / light.max(DARKEST * mean);
+        }
     }
     (luminance, true)
+}
+
+/// Means of squares of so many pixels a side, the last ones of what is there.
+fn blocks(grid: &Grid<f64>, side: usize) -> Grid<f64> {
+    let (width, height) = (grid.width(), grid.height());
+    Grid::from_fn(width.div_ceil(side), height.div_ceil(side), |i, j| {
+        let columns = i * side..((i + 1) * side).min(width);
+        let rows = j * side..((j + 1) * side).min(height);
+        let n = (columns.len() * rows.len()) as f64;
+        let sums = rows.map(|row| grid.row(row)[columns.clone()].iter().sum::<f64>());
+        sums.sum::<f64>() / n
+    })
 }
 
 /// Mean and variance of a grid; 0 of none.
@@ -53,12 +78,11 @@ pub(super) fn mean_and_variance(grid: &Grid<f64>) -> (f64, f64) {
 
 /// A grid smoothed by about a Gaussian of standard deviation `sigma`, which fades to the mean of
 /// what is there at the edges.
-fn smoothed(grid: &Grid<f64>, sigma: f64) -> Grid<f64> {
+fn smoothed(mut smooth: Grid<f64>, sigma: f64) -> Grid<f64> {
     // A box of 2r + 1 has the variance r(r + 1)/3; three of them add up.
-    let widest = grid.width().max(grid.height()) as f64;
+    let widest = smooth.width().max(smooth.height()) as f64;
     let radius = ((0.25 + sigma * sigma).sqrt() - 0.5).min(widest);
     let radius = to_index(radius.round());
-    let mut smooth = grid.clone();
     for _ in 0..N_PASSES {
         for row in 0..smooth.height() {
             box_filter(smooth.row_mut(row), radius);
@@ -157,7 +181,7 @@ mod tests {
     fn smoothing_keeps_a_constant_and_any_radius_is_finite() {
         let flat = Grid::filled(9, 5, 0.4);
         for sigma in [0.0, 1.0, 50.0, 1e300] {
-            let smooth = smoothed(&flat, sigma);
+            let smooth = smoothed(flat.clone(), sigma);
             assert!(
                 smooth.values().iter().all(|x| (x - 0.4).abs() < 1e-12),
                 "{sigma}"

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::PictureError;
 use super::basis::{Place, length, mix};
 use selvedge_foundation::files::{FileError, Rgb16Image};
-use selvedge_foundation::numerics::{Grid, to_index};
+use selvedge_foundation::numerics::{Grid, to_index, to_whole};
 
 /// Channels that differ by more than this share of white are coloured.
 const COLOURED: f64 = 0.02;
@@ -20,9 +20,9 @@ pub struct Picture {
     /// Luminance of the encoded values, 0…1, row by row from the top: 0.2126 R + 0.7152 G +
     /// 0.0722 B.
     pub luminance: Grid<f64>,
-    /// The shares of red and of green in red + green + blue, which light and shadow leave as they
-    /// are; none if the picture is grey.
-    pub colour: Option<Grid<[f32; 2]>>,
+    /// The shares of red and of green in red + green + blue, of 65535, which light and shadow leave
+    /// as they are; none if the picture is grey.
+    pub colour: Option<Grid<[u16; 2]>>,
 }
 
 impl Picture {
@@ -42,8 +42,8 @@ impl Picture {
         });
         let share = |&[r, g, b]: &[u16; 3]| {
             // One step of 8 bits is added to each, so that black is grey.
-            let [r, g, b] = [r, g, b].map(|x| f32::from(x) + 257.0);
-            [r / (r + g + b), g / (r + g + b)]
+            let [r, g, b] = [r, g, b].map(|x| f64::from(x) + 257.0);
+            [r, g].map(|x| to_whole((x / (r + g + b) * white).round()))
         };
         let width = decoded.width;
         let empty =
@@ -118,29 +118,23 @@ impl Picture {
         }
         let map = Projection::onto(corners);
         let n = size.map(to_index);
-        let places = (0..n[1]).flat_map(|j| (0..n[0]).map(move |i| [i, j]));
-        let places: Vec<Place> = places
-            .map(|[i, j]| map.at([(i as f64 + 0.5) / size[0], (j as f64 + 0.5) / size[1]]))
-            .map(|[x, y]| [x - 0.5, y - 0.5])
-            .collect();
-        let luminance = places
-            .iter()
-            .map(|&p| between(&self.luminance, p, |a, b, t| a + (b - a) * t))
-            .collect();
-        let blend = |a: [f32; 2], b: [f32; 2], t: f64| {
-            #[expect(clippy::cast_possible_truncation, reason = "0…1")]
-            let t = t as f32;
-            [a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t]
+        let place = |i: usize, j: usize| {
+            let at = [(i as f64 + 0.5) / size[0], (j as f64 + 0.5) / size[1]];
+            map.at(at).map(|px| px - 0.5)
         };
-        let colour = self.colour.as_ref().and_then(|c| {
-            Grid::from_rows(n[0], places.iter().map(|&p| between(c, p, blend)).collect())
+        let luminance = Grid::from_fn(n[0], n[1], |i, j| {
+            between(&self.luminance, place(i, j), |a, b, t| a + (b - a) * t)
         });
-        let nothing =
-            || PictureError::Input("the four corners hold no pixel; move them apart".to_owned());
-        Ok(Self {
-            luminance: Grid::from_rows(n[0], luminance).ok_or_else(nothing)?,
-            colour,
-        })
+        let mixed = |[a, b]: [u16; 2], t: f64| {
+            let [a, b] = [a, b].map(f64::from);
+            to_whole((a + (b - a) * t).round())
+        };
+        let blend = |a: [u16; 2], b: [u16; 2], t: f64| [0, 1].map(|i| mixed([a[i], b[i]], t));
+        let colour = self
+            .colour
+            .as_ref()
+            .map(|colour| Grid::from_fn(n[0], n[1], |i, j| between(colour, place(i, j), blend)));
+        Ok(Self { luminance, colour })
     }
 }
 

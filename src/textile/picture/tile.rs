@@ -66,12 +66,8 @@ impl Tile {
     }
 
     /// The value at lattice coordinates (u, v), bilinear and periodic.
-    pub fn at(&self, [u, v]: Place) -> f64 {
-        let ([i, next_i], s) = around(u, self.values.width());
-        let ([j, next_j], t) = around(v, self.values.height());
-        let along = |row: &[f64]| row[i] + s * (row[next_i] - row[i]);
-        let (top, bottom) = (along(self.values.row(j)), along(self.values.row(next_j)));
-        top + t * (bottom - top)
+    pub fn at(&self, place: Place) -> f64 {
+        between(&self.values, place, |a, b, share| a + share * (b - a))
     }
 
     /// Textile of any size made of it: sample (x, y) of the patch lies at
@@ -162,6 +158,15 @@ impl Tile {
             0.0
         }
     }
+}
+
+/// What repeats over a grid at lattice coordinates (u, v), bilinear.
+#[inline]
+pub(super) fn between<T: Copy>(cell: &Grid<T>, [u, v]: Place, blend: impl Fn(T, T, f64) -> T) -> T {
+    let ([i, next_i], s) = around(u, cell.width());
+    let ([j, next_j], t) = around(v, cell.height());
+    let along = |row: &[T]| blend(row[i], row[next_i], s);
+    blend(along(cell.row(j)), along(cell.row(next_j)), t)
 }
 
 /// The two samples of `n` a period that a coordinate lies between, and how far behind the first.

@@ -92,7 +92,7 @@ pub(crate) struct Synthesis {
 
 impl Synthesis {
     /// Puts the cloth in the place of a map.
-    fn extend(self, measured: &mut Measured, path: &Path) -> Result<(), TextileError> {
+    pub(crate) fn extend(self, measured: &mut Measured, path: &Path) -> Result<(), TextileError> {
         let step_mm = measured.step_mm;
         let n = [0, 1].map(|axis| to_index((self.size_mm[axis] / step_mm[axis]).round()).max(1));
         if n[0].saturating_mul(n[1]) > MAX_SYNTHESIZED {

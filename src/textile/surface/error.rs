@@ -4,7 +4,7 @@
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SurfaceError {
     /// The samples lie too close or too far apart.
-    #[error("the step is {step_mm} mm; sample at 0.0005 to 0.5 mm")]
+    #[error("the step is {step_mm:?} mm; sample at 0.0005 to 0.5 mm")]
     Step {
         /// The step found, mm.
         step_mm: f64,

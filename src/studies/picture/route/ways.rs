@@ -193,9 +193,7 @@ impl Subject {
             let lamp = self.lamp;
             let ensemble = Ensemble::of(&brightness, &about, lamp, n_threads(), progress);
             let ensemble = ensemble.map_err(failed)?;
-            let shape = ensemble
-                .shape(&brightness, &about, progress)
-                .map_err(failed)?;
+            let shape = ensemble.shape(&about).map_err(failed)?;
             let map = self.scaled(&shape, self.photograph.px_mm)?;
             Ok((ensemble, map))
         })

@@ -32,6 +32,9 @@ pub(super) fn resampled(grid: &Grid<f64>, [width, height]: [usize; 2]) -> Grid<f
     let scale = (width * height) as f64 / (w * h) as f64;
     let offset = |n: usize, m: usize| PI * (1.0 / n as f64 - 1.0 / m as f64);
     let [turn_x, turn_y] = [offset(width, w), offset(height, h)];
+    let turns_x: Vec<Complex> = (0..n_x)
+        .map(|k| Complex::from_polar(scale, k as f64 * turn_x))
+        .collect();
     for l in 0..n_y {
         for is_negative in [false, true] {
             let is_same = is_negative && l == 0;
@@ -42,8 +45,9 @@ pub(super) fn resampled(grid: &Grid<f64>, [width, height]: [usize; 2]) -> Grid<f
             let y = if is_negative { -(l as f64) } else { l as f64 };
             let from = from.row(row(h));
             let to = to.row_mut(row(height));
-            for (k, (to, from)) in to.iter_mut().zip(from).take(n_x).enumerate() {
-                *to = from * Complex::from_polar(scale, k as f64 * turn_x + y * turn_y);
+            let turn_y = Complex::from_polar(1.0, y * turn_y);
+            for (to, (from, turn_x)) in to.iter_mut().zip(from.iter().zip(&turns_x)) {
+                *to = from * turn_x * turn_y;
             }
         }
     }

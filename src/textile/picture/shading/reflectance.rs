@@ -53,49 +53,60 @@ pub fn picture_of(height_px: &Grid<f64>, light: Light) -> Grid<f64> {
 
 /// Central differences along rows, a px.
 pub(super) fn along(z: &Grid<f64>) -> Grid<f64> {
-    let n = z.width();
-    let mut slopes = Grid::filled(n, z.height(), 0.0);
-    for row in 0..z.height() {
-        let (from, to) = (z.row(row), slopes.row_mut(row));
-        for (slope, three) in to.iter_mut().skip(1).zip(from.windows(3)) {
-            *slope = 0.5 * (three[2] - three[0]);
-        }
-        for end in [0, n - 1] {
-            to[end] = 0.5 * (from[after(end, n)] - from[before(end, n)]);
-        }
-    }
-    slopes
+    of_rows(z, along_row)
 }
 
 /// Central differences across rows, a px.
 pub(super) fn across(z: &Grid<f64>) -> Grid<f64> {
-    let n = z.height();
-    Grid::from_fn(z.width(), n, |column, row| {
-        0.5 * (z.row(after(row, n))[column] - z.row(before(row, n))[column])
-    })
+    of_rows(z, across_row)
 }
 
 /// The sum of the four neighbours less four times the point.
 pub(super) fn laplacian(z: &Grid<f64>) -> Grid<f64> {
-    let (width, height) = (z.width(), z.height());
-    let mut bent = Grid::filled(width, height, 0.0);
-    for row in 0..height {
-        let (here, to) = (z.row(row), bent.row_mut(row));
-        for (value, three) in to.iter_mut().skip(1).zip(here.windows(3)) {
-            *value = three[0] + three[2] - 4.0 * three[1];
-        }
-        for end in [0, width - 1] {
-            to[end] = here[before(end, width)] + here[after(end, width)] - 4.0 * here[end];
-        }
-        let pairs = z
-            .row(after(row, height))
-            .iter()
-            .zip(z.row(before(row, height)));
-        for (value, (above, below)) in to.iter_mut().zip(pairs) {
-            *value += above + below;
-        }
+    of_rows(z, laplacian_row)
+}
+
+fn of_rows(z: &Grid<f64>, of: impl Fn(&Grid<f64>, usize, &mut [f64])) -> Grid<f64> {
+    let mut all = Grid::filled(z.width(), z.height(), 0.0);
+    for row in 0..z.height() {
+        of(z, row, all.row_mut(row));
     }
-    bent
+    all
+}
+
+/// One row of [`along`].
+pub(super) fn along_row(z: &Grid<f64>, row: usize, slopes: &mut [f64]) {
+    let (from, n) = (z.row(row), z.width());
+    for (slope, three) in slopes.iter_mut().skip(1).zip(from.windows(3)) {
+        *slope = 0.5 * (three[2] - three[0]);
+    }
+    for end in [0, n - 1] {
+        slopes[end] = 0.5 * (from[after(end, n)] - from[before(end, n)]);
+    }
+}
+
+/// One row of [`across`].
+pub(super) fn across_row(z: &Grid<f64>, row: usize, slopes: &mut [f64]) {
+    let n = z.height();
+    let pairs = z.row(after(row, n)).iter().zip(z.row(before(row, n)));
+    for (slope, (above, below)) in slopes.iter_mut().zip(pairs) {
+        *slope = 0.5 * (above - below);
+    }
+}
+
+/// One row of [`laplacian`].
+pub(super) fn laplacian_row(z: &Grid<f64>, row: usize, bent: &mut [f64]) {
+    let (here, width, height) = (z.row(row), z.width(), z.height());
+    for (value, three) in bent.iter_mut().skip(1).zip(here.windows(3)) {
+        *value = three[0] + three[2] - 4.0 * three[1];
+    }
+    for end in [0, width - 1] {
+        bent[end] = here[before(end, width)] + here[after(end, width)] - 4.0 * here[end];
+    }
+    let [above, below] = [after(row, height), before(row, height)].map(|row| z.row(row));
+    for (value, (above, below)) in bent.iter_mut().zip(above.iter().zip(below)) {
+        *value += above + below;
+    }
 }
 
 pub(super) fn before(i: usize, n: usize) -> usize {

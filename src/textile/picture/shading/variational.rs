@@ -7,14 +7,15 @@
 //! broad forms are found first, which keeps steep weaves out of wrong valleys and is cheap. The
 //! albedo is fitted between steps. A tile is done when a step hardly lowers the sum any more.
 
-use std::f64::consts::TAU;
-
 use super::coarse::{resampled, sizes};
 use super::error::ShadingError;
-use super::reflectance::{Lambert, across, along, laplacian, residual};
+use super::reflectance::{
+    Lambert, across, across_row, along, along_row, laplacian, laplacian_row, residual,
+};
 use super::shape::{Found, ShadingOptions};
+use super::tangent::{Normal, Tangent, add, dot, product, squares};
 use super::{Light, linear};
-use selvedge_foundation::numerics::{Grid, PlaneTransform};
+use selvedge_foundation::numerics::{Complex, Grid, PlaneTransform};
 use selvedge_foundation::progress::Progress;
 
 /// Weight of squared curvature unless stated, and at first.
@@ -47,14 +48,6 @@ struct Fit<'a> {
     z: Grid<f64>,
     /// Rounds of conjugate gradients so far.
     n_rounds: usize,
-}
-
-/// The reflectance about the surface as it is.
-struct Tangent {
-    by_p: Grid<f64>,
-    by_q: Grid<f64>,
-    /// E/a − R.
-    missing: Grid<f64>,
 }
 
 /// How the weight of curvature falls over the iterations on one tile.
@@ -198,31 +191,21 @@ impl Fit<'_> {
         }
     }
 
-    fn tangent(&self) -> Tangent {
-        let (mut by_p, mut by_q) = (along(&self.z), across(&self.z));
-        let mut missing = self.brightness.clone();
-        let slopes = by_p.values_mut().iter_mut().zip(by_q.values_mut());
-        for (e, (p, q)) in missing.values_mut().iter_mut().zip(slopes) {
-            let [bright, dp, dq] = self.matt.with_slopes(*p, *q);
-            *e = *e / self.albedo - bright;
-            (*p, *q) = (dp, dq);
-        }
-        Tangent {
-            by_p,
-            by_q,
-            missing,
-        }
-    }
-
     /// What is made least.
     fn cost(&self, z: &Grid<f64>) -> f64 {
-        let (p, q) = (along(z), across(z));
-        let slopes = p.values().iter().zip(q.values());
-        let pairs = self.brightness.values().iter().zip(slopes);
-        let misfit: f64 = pairs
-            .map(|(e, (p, q))| (e / self.albedo - self.matt.of(*p, *q).max(0.0)).powi(2))
-            .sum();
-        misfit + self.smoothness * squares(&laplacian(z)) + TIKHONOV * squares(z)
+        let [mut p, mut q, mut bent] = [(); 3].map(|()| vec![0.0; z.width()]);
+        let (mut misfit, mut curved) = (0.0, 0.0);
+        for row in 0..z.height() {
+            along_row(z, row, &mut p);
+            across_row(z, row, &mut q);
+            laplacian_row(z, row, &mut bent);
+            for (e, (p, q)) in self.brightness.row(row).iter().zip(p.iter_mut().zip(&q)) {
+                *p = e / self.albedo - self.matt.of(*p, *q).max(0.0);
+            }
+            misfit += product(&p, &p);
+            curved += product(&bent, &bent);
+        }
+        misfit + self.smoothness * curved + TIKHONOV * squares(z)
     }
 
     /// One Gauss–Newton step, halved until it lowers the cost, which is handed back; none if
@@ -233,7 +216,7 @@ impl Fit<'_> {
         progress: &mut Progress<'_>,
         share: f64,
     ) -> Result<f64, ShadingError> {
-        let tangent = self.tangent();
+        let tangent = Tangent::of(self.brightness, self.albedo, (&self.z, self.matt));
         let mut down = tangent.back(&tangent.missing);
         let bent = laplacian(&laplacian(&self.z));
         add(&mut down, -self.smoothness, &bent);
@@ -266,9 +249,12 @@ impl Fit<'_> {
         share: f64,
     ) -> Result<Grid<f64>, ShadingError> {
         let shift = TIKHONOV + self.damping;
-        let mean = tangent.mean_problem(self.smoothness, shift);
-        let mut x = Grid::filled(right.width(), right.height(), 0.0);
-        let mut y = self.divided(&right, &mean);
+        let inverse = tangent.mean_problem(self.smoothness, shift);
+        let mut normal = Normal::of(tangent, [self.smoothness, shift]);
+        let (width, height) = (right.width(), right.height());
+        let [mut x, mut y] = [(); 2].map(|()| Grid::filled(width, height, 0.0));
+        let mut waves = inverse.map(|_| Complex::default());
+        self.divided(&right, &inverse, (&mut waves, &mut y));
         let mut way = y.clone();
         let first = dot(&right, &y);
         let mut now = first;
@@ -278,16 +264,14 @@ impl Fit<'_> {
             }
             progress.step(share, "fitting heights")?;
             self.n_rounds += 1;
-            let mut image = tangent.back(&tangent.forth(&way));
-            add(&mut image, self.smoothness, &laplacian(&laplacian(&way)));
-            add(&mut image, shift, &way);
-            let length = now / dot(&way, &image);
+            let image = normal.times(&way);
+            let length = now / dot(&way, image);
             if !length.is_finite() {
                 break;
             }
             add(&mut x, length, &way);
-            add(&mut right, -length, &image);
-            y = self.divided(&right, &mean);
+            add(&mut right, -length, image);
+            self.divided(&right, &inverse, (&mut waves, &mut y));
             let next = dot(&right, &y);
             let keep = next / now;
             for (w, y) in way.values_mut().iter_mut().zip(y.values()) {
@@ -298,69 +282,17 @@ impl Fit<'_> {
         Ok(x)
     }
 
-    /// Divided by the transform of the mean problem.
-    fn divided(&self, right: &Grid<f64>, mean: &Grid<f64>) -> Grid<f64> {
-        let mut spectrum = self.transform.forward(right);
-        for (f, weight) in spectrum.values_mut().iter_mut().zip(mean.values()) {
-            *f /= *weight;
+    /// Divided by the transform of the mean problem, of which the inverse is given.
+    fn divided(
+        &self,
+        right: &Grid<f64>,
+        inverse: &Grid<f64>,
+        (waves, into): (&mut Grid<Complex>, &mut Grid<f64>),
+    ) {
+        self.transform.forward_into(right, waves);
+        for (f, weight) in waves.values_mut().iter_mut().zip(inverse.values()) {
+            *f *= *weight;
         }
-        self.transform.inverse(spectrum)
+        self.transform.inverse_into(waves, into);
     }
-}
-
-impl Tangent {
-    /// J: the change of brightness with a change of heights.
-    fn forth(&self, change: &Grid<f64>) -> Grid<f64> {
-        let (mut bright, q) = (along(change), across(change));
-        let weights = self.by_p.values().iter().zip(self.by_q.values());
-        let pairs = weights.zip(q.values());
-        for (value, ((dp, dq), q)) in bright.values_mut().iter_mut().zip(pairs) {
-            *value = dp * *value + dq * q;
-        }
-        bright
-    }
-
-    /// Jᵀ. Central differences over what repeats are their own transpose with the other sign.
-    fn back(&self, bright: &Grid<f64>) -> Grid<f64> {
-        let weighted = |by: &Grid<f64>| {
-            let mut product = bright.clone();
-            for (value, weight) in product.values_mut().iter_mut().zip(by.values()) {
-                *value *= -weight;
-            }
-            product
-        };
-        let mut change = along(&weighted(&self.by_p));
-        add(&mut change, 1.0, &across(&weighted(&self.by_q)));
-        change
-    }
-
-    /// The transform of `JᵀJ` + λ∇⁴ + μ with J's weights in the mean.
-    fn mean_problem(&self, smoothness: f64, shift: f64) -> Grid<f64> {
-        let n = self.by_p.values().len().max(1) as f64;
-        let [pp, qq] = [&self.by_p, &self.by_q].map(|by| squares(by) / n);
-        let pq = dot(&self.by_p, &self.by_q) / n;
-        let (width, height) = (self.by_p.width(), self.by_p.height());
-        Grid::from_fn(width / 2 + 1, height, |column, row| {
-            let x = TAU * column as f64 / width as f64;
-            let y = TAU * row as f64 / height as f64;
-            let [sx, sy] = [x.sin(), y.sin()];
-            let bend = 2.0 * x.cos() + 2.0 * y.cos() - 4.0;
-            let slope = pp * sx * sx + qq * sy * sy + 2.0 * pq * sx * sy;
-            slope.max(0.0) + smoothness * bend * bend + shift
-        })
-    }
-}
-
-fn add(to: &mut Grid<f64>, factor: f64, from: &Grid<f64>) {
-    for (value, other) in to.values_mut().iter_mut().zip(from.values()) {
-        *value += factor * other;
-    }
-}
-
-fn dot(a: &Grid<f64>, b: &Grid<f64>) -> f64 {
-    a.values().iter().zip(b.values()).map(|(a, b)| a * b).sum()
-}
-
-fn squares(a: &Grid<f64>) -> f64 {
-    dot(a, a)
 }

@@ -4,7 +4,7 @@ use super::super::basis::{Basis, Place, dot, length, mix};
 use super::super::source::between;
 use super::Unwarped;
 use super::pattern::{Local, Pattern};
-use selvedge_foundation::numerics::{Grid, extent, to_index};
+use selvedge_foundation::numerics::{Grid, extent, in_pieces, to_index};
 
 /// Knots each way at most.
 const MAX_KNOTS: f64 = 64.0;
@@ -58,46 +58,62 @@ impl Field {
             field: self.clone(),
             weights: Grid::filled(width, height, 0.0),
         };
-        let mut is_open = Grid::filled(width, height, true);
+        // How sure the knots around each are; of one that is taken, nothing.
+        let mut sure = Grid::filled(width, height, Some(0.0));
         let [x, y, w, h] = part.map(|px| px as f64);
         let middle = [x + 0.5 * w, y + 0.5 * h].map(|px| to_index((px / self.apart_px).round()));
         let mut next = Some([middle[0].min(width - 1), middle[1].min(height - 1)]);
         while let Some(knot) = next {
             let near = found.predicted(knot);
             found.take(knot, pattern.matched(luminance, (self.place(knot), near)));
-            is_open.row_mut(knot[1])[knot[0]] = false;
+            sure.row_mut(knot[1])[knot[0]] = None;
+            for ([i, j], _) in found.near(knot, 1) {
+                let around = found.around([i, j], 1);
+                sure.row_mut(j)[i] = sure.row(j)[i].map(|_| around);
+            }
             let open = (0..height).flat_map(|j| (0..width).map(move |i| [i, j]));
-            let open = open.filter(|&[i, j]| is_open.row(j)[i]);
-            let sure = open.map(|knot| (found.around(knot, 1), knot));
-            let surest = sure.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+            let open = open.filter_map(|knot| Some((sure.row(knot[1])[knot[0]]?, knot)));
+            let surest = open.max_by(|a: &(f64, _), b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
             next = surest.map(|(_, knot)| knot);
         }
         found
     }
 
     /// Finds every knot again, from where it is.
-    pub(super) fn tracked(&self, luminance: &Grid<f64>, pattern: &Pattern) -> Found {
+    pub(super) fn tracked(
+        &self,
+        luminance: &Grid<f64>,
+        pattern: &Pattern,
+        n_threads: usize,
+    ) -> Found {
         let [width, height] = [self.off.width(), self.off.height()];
-        let mut found = Found {
-            field: self.clone(),
-            weights: Grid::filled(width, height, 0.0),
+        let mut matched = vec![([0.0; 2], 0.0); width * height];
+        let work = |(): &mut (), j: usize, row: &mut [(Place, f64)]| {
+            for (i, one) in row.iter_mut().enumerate() {
+                let place = self.place([i, j]);
+                let slope = |axis: usize| {
+                    let mut ends = [place; 2];
+                    ends[0][axis] -= 0.5 * self.apart_px;
+                    ends[1][axis] += 0.5 * self.apart_px;
+                    let [from, to] = ends.map(|end| self.at(end));
+                    mix(to, 1.0 / self.apart_px, from, -1.0 / self.apart_px)
+                };
+                let near = Local {
+                    off: self.off.row(j)[i],
+                    slopes: [slope(0), slope(1)],
+                };
+                *one = pattern.matched(luminance, (place, near));
+            }
         };
-        for knot in (0..height).flat_map(|j| (0..width).map(move |i| [i, j])) {
-            let place = self.place(knot);
-            let slope = |axis: usize| {
-                let mut ends = [place; 2];
-                ends[0][axis] -= 0.5 * self.apart_px;
-                ends[1][axis] += 0.5 * self.apart_px;
-                let [from, to] = ends.map(|end| self.at(end));
-                mix(to, 1.0 / self.apart_px, from, -1.0 / self.apart_px)
-            };
-            let near = Local {
-                off: self.off.row(knot[1])[knot[0]],
-                slopes: [slope(0), slope(1)],
-            };
-            found.take(knot, pattern.matched(luminance, (place, near)));
+        in_pieces(&mut matched, width, n_threads, || (), work);
+        let of = |column: usize, row: usize| matched[row * width + column];
+        Found {
+            field: Self {
+                apart_px: self.apart_px,
+                off: Grid::from_fn(width, height, |i, j| of(i, j).0),
+            },
+            weights: Grid::from_fn(width, height, |i, j| of(i, j).1),
         }
-        found
     }
 
     /// Takes off what is a change of the lattice alone, and gives the lattice that is left.
@@ -134,7 +150,11 @@ impl Field {
 
     /// The picture laid straight, and the place of its first pixel; `None` where the margin leaves
     /// nothing.
-    pub(super) fn unwarped(&self, luminance: &Grid<f64>) -> Option<(Unwarped, Place)> {
+    pub(super) fn unwarped(
+        &self,
+        luminance: &Grid<f64>,
+        n_threads: usize,
+    ) -> Option<(Unwarped, Place)> {
         let bend_px = self
             .off
             .values()
@@ -147,16 +167,20 @@ impl Field {
         if width < size[0] / 2 || height < size[1] / 2 {
             return None;
         }
-        let straight = |column: usize, row: usize| {
-            let goal = [column, row].map(|n| (n + margin) as f64);
-            let mut place = goal;
-            for _ in 0..4 {
-                place = mix(goal, 1.0, self.at(place), -1.0);
+        let mut straight = Grid::filled(width, height, 0.0);
+        let work = |(): &mut (), row: usize, values: &mut [f64]| {
+            for (column, value) in values.iter_mut().enumerate() {
+                let goal = [column, row].map(|n| (n + margin) as f64);
+                let mut place = goal;
+                for _ in 0..4 {
+                    place = mix(goal, 1.0, self.at(place), -1.0);
+                }
+                *value = between(luminance, place, |a, b, share| a + (b - a) * share);
             }
-            between(luminance, place, |a, b, share| a + (b - a) * share)
         };
+        in_pieces(straight.values_mut(), width, n_threads, || (), work);
         let unwarped = Unwarped {
-            luminance: Grid::from_fn(width, height, straight),
+            luminance: straight,
             bend_px,
             stretch: self.stretch(),
         };

@@ -17,7 +17,7 @@ use super::part::FlatPart;
 use super::tile::Tile;
 use field::Field;
 use pattern::Pattern;
-use selvedge_foundation::numerics::Grid;
+use selvedge_foundation::numerics::{Grid, in_pieces};
 use selvedge_foundation::quantity::with_unit;
 
 /// What is laid straight must explain this much more of what was not looked at.
@@ -63,24 +63,26 @@ pub(super) fn straight<E>(
     mut step: impl FnMut(f64) -> Result<(), E>,
 ) -> Result<Option<Straight>, E> {
     let [left, top, ..] = flat.place.map(|px| px as f64);
-    let mut pattern = Pattern::new(flat.tile.clone(), [left, top], lattice);
+    let mut pattern = Pattern::new(&flat.tile, [left, top], lattice);
     let mut field = Field::level(luminance, &pattern);
-    let mut best = None;
+    let mut best: Option<Straight> = None;
     for round in 0..N_ROUNDS {
         step(round as f64 / N_ROUNDS as f64)?;
         let mut found = match round {
             0 => field.grown(luminance, &pattern, flat.place),
-            _ => field.tracked(luminance, &pattern),
+            _ => field.tracked(luminance, &pattern, n_threads),
         };
         found.smooth();
         field = found.field;
         let basis = field.take_mean_off(pattern.basis());
-        let Some((unwarped, origin)) = field.unwarped(luminance) else {
+        // One picture at a time: large ones fill the memory.
+        drop(best.take());
+        let Some((unwarped, origin)) = field.unwarped(luminance, n_threads) else {
             return Ok(None);
         };
         let (tile, explained_variance) =
             Tile::refine(&unwarped.luminance, basis, n_threads, |_| Ok(()))?;
-        pattern = Pattern::new(tile.clone(), origin, lattice);
+        pattern = Pattern::new(&tile, origin, lattice);
         best = Some(Straight {
             unwarped,
             tile,
@@ -105,19 +107,26 @@ fn held_out(luminance: &Grid<f64>, basis: Basis, n_threads: usize) -> f64 {
         [[0, 0, w, h / 2], [0, h / 2, w, h - h / 2]],
     ];
     let share = |seen: [usize; 4], other: [usize; 4]| {
-        let (seen_part, other_part) = (luminance.part(seen)?, luminance.part(other)?);
-        let tile = Tile::fold(&seen_part, basis, n_threads);
+        let tile = Tile::fold(&luminance.part(seen)?, basis, n_threads);
+        let [x, y, width, height] = other;
         let origin = [0, 1].map(|axis| other[axis] as f64 - seen[axis] as f64);
-        let [mut n, mut sum, mut squares, mut left] = [0.0; 4];
-        for (row, values) in (0_u32..).zip((0..other_part.height()).map(|j| other_part.row(j))) {
-            for (column, value) in (0_u32..).zip(values) {
-                let at = [origin[0] + f64::from(column), origin[1] + f64::from(row)];
-                n += 1.0;
-                sum += value;
-                squares += value * value;
-                left += (value - tile.at(basis.coordinates(at))).powi(2);
+        // Of every row the number, the sum, the sum of squares and what the tile leaves of them.
+        let mut rows = vec![[0.0; 4]; height];
+        let work = |(): &mut (), row: usize, sums: &mut [[f64; 4]]| {
+            for (column, value) in (0_u32..).zip(&luminance.row(y + row)[x..x + width]) {
+                let at = [origin[0] + f64::from(column), origin[1] + row as f64];
+                let left = value - tile.at(basis.coordinates(at));
+                for (sum, term) in sums[0]
+                    .iter_mut()
+                    .zip([1.0, *value, value * value, left * left])
+                {
+                    *sum += term;
+                }
             }
-        }
+        };
+        in_pieces(&mut rows, 1, n_threads, || (), work);
+        let [n, sum, squares, left] =
+            [0, 1, 2, 3].map(|k| rows.iter().map(|row| row[k]).sum::<f64>());
         let all = squares - sum * sum / n;
         Some(if all > 0.0 { 1.0 - left / all } else { 0.0 })
     };

@@ -2,7 +2,7 @@
 
 use super::super::basis::{Basis, Place, length, mix};
 use super::super::lattice::Lattice;
-use super::super::tile::Tile;
+use super::super::tile::{Tile, between};
 use selvedge_foundation::numerics::{Grid, to_index};
 
 /// Side of the piece around a knot, in cells of threads, and px at least.
@@ -25,7 +25,8 @@ const DOUBT: f64 = 1e-3;
 
 /// What pieces are matched with: a mean cell whose first sample lies at a place of the picture.
 pub(super) struct Pattern {
-    tile: Tile,
+    /// Values, and how they change along x and along y.
+    cell: Grid<[f64; 3]>,
     basis: Basis,
     origin: Place,
     /// From thread to thread at most, px.
@@ -33,13 +34,21 @@ pub(super) struct Pattern {
 }
 
 impl Pattern {
-    pub(super) fn new(tile: Tile, origin: Place, lattice: &Lattice) -> Self {
+    pub(super) fn new(tile: &Tile, origin: Place, lattice: &Lattice) -> Self {
         let basis = tile.basis();
+        let n = [tile.values.width(), tile.values.height()];
+        let half = [[0.5, 0.0], [0.0, 0.5]].map(|px| basis.coordinates(px));
+        let cell = Grid::from_fn(n[0], n[1], |i, j| {
+            let at = [i as f64 / n[0] as f64, j as f64 / n[1] as f64];
+            let change =
+                half.map(|px| tile.at(mix(at, 1.0, px, 1.0)) - tile.at(mix(at, 1.0, px, -1.0)));
+            [tile.values.row(j)[i], change[0], change[1]]
+        });
         let cell_px = lattice
             .thread_grid
             .map_or_else(|| basis.longer(), |grid| grid.longer());
         Self {
-            tile,
+            cell,
             basis,
             origin,
             cell_px,
@@ -56,16 +65,13 @@ impl Pattern {
         self.basis
     }
 
-    fn at(&self, place: Place) -> f64 {
-        self.tile
-            .at(self.basis.coordinates(mix(place, 1.0, self.origin, -1.0)))
-    }
-
     /// Value and slope at a place.
-    fn with_slope(&self, [x, y]: Place) -> (f64, Place) {
-        let along = self.at([x + 0.5, y]) - self.at([x - 0.5, y]);
-        let down = self.at([x, y + 0.5]) - self.at([x, y - 0.5]);
-        (self.at([x, y]), [along, down])
+    fn with_slope(&self, place: Place) -> (f64, Place) {
+        let at = self.basis.coordinates(mix(place, 1.0, self.origin, -1.0));
+        let blend =
+            |a: [f64; 3], b: [f64; 3], share: f64| [0, 1, 2].map(|k| a[k] + share * (b[k] - a[k]));
+        let [value, along, down] = between(&self.cell, at, blend);
+        (value, [along, down])
     }
 }
 

@@ -47,7 +47,7 @@ pub(crate) struct Correlated {
 }
 
 /// Directions, lattice and tile.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Cloth {
     /// The autocorrelation, and the shift at its edge, px.
     pub correlation: Option<(Image, usize)>,
@@ -63,6 +63,8 @@ pub(crate) struct Cloth {
     pub images: Option<[Image; 3]>,
     /// Pixels of the picture along the images.
     pub(crate) shown_px: f64,
+    /// Whether it was not yet laid straight where it is bent.
+    pub(crate) may_be_bent: bool,
 }
 
 /// A textile, ready to be kept.

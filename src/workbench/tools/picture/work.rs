@@ -92,7 +92,8 @@ fn is_new<T>(before: Option<&Arc<T>>, now: &Arc<T>) -> bool {
     before.is_none_or(|before| !Arc::ptr_eq(before, now))
 }
 
-/// The photograph is shown before it is correlated, its lattice before heights are found.
+/// The photograph is shown before it is correlated, its lattice before bent cloth is laid straight,
+/// and then before heights are found.
 fn stages(
     found: &mut Found,
     prior: Option<&Found>,
@@ -117,6 +118,7 @@ fn stages(
     found.correlated = Some(Arc::clone(&correlated));
     progress.step(0.5, "fitting the lattice")?;
     let cloth = match known(prior, |of| of.has_same_tile(&inputs), |found| &found.cloth) {
+        Some(cloth) if cloth.may_be_bent => Arc::new(straightened(&cloth, &correlated, progress)?),
         Some(cloth) => cloth,
         None => Arc::new(cloth(&inputs, &correlated, progress)?),
     };
@@ -222,6 +224,7 @@ fn cloth(
                 found: Err(reason.clone()),
                 images: None,
                 shown_px: 1.0,
+                may_be_bent: false,
             });
         }
     };
@@ -241,33 +244,57 @@ fn cloth(
     let found = match lattice {
         Ok(lattice) => {
             let colour = correlated.picture.colour.as_ref();
-            let tiled = Tiled::of(luminance, colour, lattice, n_threads(), progress)?;
+            let tiled = Tiled::averaged(luminance, colour, lattice, n_threads(), progress)?;
             Ok(Box::new(tiled))
         }
         Err(reason) => Err(reason.to_string()),
     };
-    let part = found.as_deref().ok().map(|tiled| {
-        let corner = tiled.flat_part.map_or([0, 0], |([x, y, ..], _)| [x, y]);
-        let part = images::part(tiled.laid(luminance), &tiled.lattice, corner);
-        (tiled, part)
-    });
-    let images = part.as_ref().map(|(tiled, part)| {
-        let [again, rest] = images::synthesized(part, &tiled.tile, n_threads());
-        [images::with_lattice(part, &tiled.lattice), again, rest]
-    });
-    let shown_px = part.as_ref().map_or(1.0, |(_, part)| part.width() as f64);
     let lattice = found.as_deref().ok().map(|tiled| &tiled.lattice);
     let mut ranked: Vec<_> = significant.all().to_vec();
     ranked.sort_by(|a, b| b.dominance_px.total_cmp(&a.dominance_px));
-    Ok(Cloth {
+    let cloth = Cloth {
         correlation: Some(images::correlation(rho, lattice)),
         maxima: ranked.iter().map(|m| (m.place, m.height)).collect(),
         directions: Some(directions),
         offered,
-        images,
-        shown_px,
+        images: None,
+        shown_px: 1.0,
+        may_be_bent: found.as_deref().is_ok_and(|tiled| !tiled.lies_flat()),
         found,
-    })
+    };
+    Ok(pictured(cloth, luminance))
+}
+
+/// A cloth with its pictures: of a piece of it.
+fn pictured(mut cloth: Cloth, luminance: &Grid<f64>) -> Cloth {
+    if let Ok(tiled) = &cloth.found {
+        let corner = tiled.flat_part.map_or([0, 0], |([x, y, ..], _)| [x, y]);
+        let part = images::part(tiled.laid(luminance), &tiled.lattice, corner);
+        let [again, rest] = images::synthesized(&part, &tiled.tile, n_threads());
+        cloth.shown_px = part.width() as f64;
+        cloth.images = Some([images::with_lattice(&part, &tiled.lattice), again, rest]);
+    }
+    cloth
+}
+
+/// A cloth that may be bent, laid straight.
+fn straightened(
+    cloth: &Cloth,
+    correlated: &Correlated,
+    progress: &mut Progress<'_>,
+) -> Result<Cloth, Cancelled> {
+    let mut straight = Cloth {
+        may_be_bent: false,
+        ..cloth.clone()
+    };
+    if let Ok(tiled) = &mut straight.found {
+        tiled.lay(&correlated.luminance, n_threads(), progress)?;
+    }
+    if let Ok((rho, ..)) = &correlated.read {
+        let lattice = straight.found.as_deref().ok().map(|tiled| &tiled.lattice);
+        straight.correlation = Some(images::correlation(rho, lattice));
+    }
+    Ok(pictured(straight, &correlated.luminance))
 }
 
 fn shaped(

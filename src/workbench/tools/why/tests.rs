@@ -240,7 +240,7 @@ fn levels_that_were_not_measured_are_said_to_lie_from_where_to_where() {
     let mut explained = why([10.2, 20.0], [40.0, 0.0]);
     assert!(!to_text(&explained).contains("Known to"), "it was measured");
     explained.known_db = Some([[-6.0, 2.0], [-1.0, 4.0]]);
-    let line = "Known to      -6.0 to +2.0 / -1.0 to +4.0 dB of that: heights from a picture";
+    let line = "Known to      −6.0 to +2.0 / −1.0 to +4.0 dB of that: heights from a picture";
     let text = to_text(&explained);
     assert!(text.lines().any(|said| said == line), "{text}");
 }

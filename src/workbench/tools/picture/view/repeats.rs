@@ -110,7 +110,11 @@ fn offered(ui: &mut Ui, draft: &mut Draft, cloth: Option<&Cloth>) {
             offer("found", lattice, None);
         }
         for lattice in others {
-            let name = format!("{} px", quantity::fixed(lattice.basis().area().sqrt(), 1));
+            let vector = |[x, y]: [f64; 2]| {
+                let [x, y] = [x, y].map(|px| quantity::fixed(px, 1));
+                format!("({x}, {y})")
+            };
+            let name = format!("{} {} px", vector(lattice.p1_px), vector(lattice.p2_px));
             offer(&name, lattice, Some([lattice.p1_px, lattice.p2_px]));
         }
     });
