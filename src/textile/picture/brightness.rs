@@ -10,10 +10,13 @@
 
 use super::analysis::Found;
 use super::basis::{Basis, dot, length, whole};
+use super::light::mean_and_variance;
 use super::relief::ReliefOf;
-use super::shading::{Light, LightEstimate, ShadingError, ShadingOptions, Shape};
+use super::PictureError;
+use super::shading::{Light, LightEstimate, ShadingError, ShadingOptions, Shape, Turns, View};
 use super::source::between;
 use super::tile::Tile;
+use super::turned::Turned;
 use crate::surface::WINDOW_LENGTH_MM;
 use selvedge_foundation::numerics::{Grid, to_index};
 use selvedge_foundation::progress::Progress;
@@ -52,6 +55,9 @@ pub struct Brightness {
     pub angle_rad: f64,
     /// What it is.
     pub(crate) extent: Extent,
+    /// The same of further pictures, as bright on the mean, and by how much the cloth is turned in
+    /// each, degrees counter-clockwise.
+    pub(crate) turned: Vec<(Grid<f64>, f64)>,
 }
 
 impl Brightness {
@@ -82,6 +88,7 @@ impl Brightness {
                 extent: Extent::Repeat {
                     shear_rad: rectangle.shear_rad,
                 },
+                turned: Vec::new(),
             },
             None => synthesized(tile, px_per_mm, n_threads),
         }
@@ -127,7 +134,51 @@ impl Brightness {
             values: upright(&cut),
             angle_rad,
             extent: Extent::Repeat { shear_rad: 0.0 },
+            turned: Vec::new(),
         }
+    }
+
+    /// The same of what a picture and turned ones all show, as bright in each on the mean.
+    ///
+    /// # Errors
+    /// All together show too little.
+    pub fn of_turned(
+        luminance: &Grid<f64>,
+        turned: &[Turned],
+        found: Option<&Found>,
+    ) -> Result<Self, PictureError> {
+        let region = Turned::common(turned)?;
+        let angle_rad = found.map_or(0.0, Found::turn_rad);
+        let cut = |whole: &Grid<f64>| {
+            let part = whole.part(region);
+            Self::of_picture(part.as_ref().unwrap_or(whole), angle_rad)
+        };
+        let mut first = cut(luminance);
+        let (level, _) = mean_and_variance(&first.values);
+        for one in turned {
+            let values = cut(&one.luminance).values;
+            let factor = level / mean_and_variance(&values).0.max(f64::MIN_POSITIVE);
+            let values = values.map(|value| (value * factor).clamp(0.0, 1.0));
+            first.turned.push((values, one.map.turn_deg()));
+        }
+        Ok(first)
+    }
+
+    /// Itself and the turned ones under a light on the first picture.
+    pub(crate) fn views(&self, on_picture: Light) -> Vec<View<'_>> {
+        let first = (&self.values, self.light(on_picture));
+        let others = self.turned.iter().map(|(values, turn_deg)| {
+            let light = turned(on_picture, -turn_deg);
+            (values, self.light(light))
+        });
+        std::iter::once(first).chain(others).collect()
+    }
+
+    /// What turned pictures say of the lamp; `None` of a single one.
+    pub(crate) fn turns(&self) -> Option<Turns> {
+        let others = self.turned.iter().map(|(values, turn)| (values, *turn));
+        let pictures: Vec<_> = std::iter::once((&self.values, 0.0)).chain(others).collect();
+        (pictures.len() > 1).then(|| Turns::of(&pictures))
     }
 }
 
@@ -165,6 +216,7 @@ fn synthesized(tile: &Tile, px_per_mm: f64, n_threads: usize) -> Brightness {
         size_px: n.map(|n| n as f64 * step_px),
         angle_rad,
         extent: Extent::Patch { seam_px },
+        turned: Vec::new(),
     }
 }
 
@@ -196,12 +248,16 @@ impl Brightness {
         turned(here, -self.angle_rad.to_degrees())
     }
 
-    /// Estimates the light on the picture, from this.
+    /// Estimates the light on the picture, from this; its tilt from turned pictures, if there are.
     ///
     /// # Errors
     /// All is black.
     pub fn estimated_light(&self) -> Result<LightEstimate, ShadingError> {
         let mut estimate = LightEstimate::of(&self.values)?;
+        if let Some(turns) = self.turns() {
+            estimate.light.tilt_deg = turns.light().tilt_deg;
+            estimate.words = turns.words();
+        }
         estimate.light = self.light_on_picture(estimate.light);
         Ok(estimate)
     }
@@ -231,8 +287,7 @@ impl Brightness {
     ) -> Result<Shape, ShadingError> {
         // A light that is out of range is refused in the user's own numbers.
         on_picture.check()?;
-        let light = self.light(on_picture);
-        Shape::from_shading(&self.values, light, options, progress)
+        Shape::from_views(&self.views(on_picture), options, progress)
     }
 }
 
@@ -434,6 +489,7 @@ mod tests {
             size_px: [4.0, 4.0],
             angle_rad: 0.5,
             extent: Extent::Repeat { shear_rad: 0.0 },
+            turned: Vec::new(),
         };
         let here = cut.light(Light {
             slant_deg: 40.0,

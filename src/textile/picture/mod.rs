@@ -31,6 +31,7 @@ mod significant;
 mod source;
 mod synthesis;
 mod tile;
+mod turned;
 mod unwarp;
 mod weave_name;
 
@@ -55,6 +56,7 @@ pub use significant::{Significant, SignificantMaxima};
 pub use source::Picture;
 pub(crate) use synthesis::synthesized;
 pub use tile::{Rectangle, Tile};
+pub use turned::{Similarity, Turned};
 pub use unwarp::Unwarped;
 
 use selvedge_foundation::files::FileError;

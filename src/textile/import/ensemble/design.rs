@@ -30,6 +30,13 @@ pub enum Lamp {
     },
     /// Nothing.
     Unknown,
+    /// What pictures of the cloth turned under it say.
+    Turned {
+        /// On the first picture, y up.
+        tilt_deg: f64,
+        /// Half of the interval that it is drawn from, degrees.
+        within_deg: f64,
+    },
 }
 
 impl Lamp {
@@ -47,6 +54,13 @@ impl Lamp {
             Self::Unknown => Light {
                 slant_deg: along(SLANTS_DEG, b),
                 tilt_deg: along([-180.0, 180.0], a),
+            },
+            Self::Turned {
+                tilt_deg,
+                within_deg,
+            } => Light {
+                slant_deg: along(SLANTS_DEG, b),
+                tilt_deg: tilt_deg + along([-within_deg, within_deg], a),
             },
         }
     }
@@ -121,7 +135,7 @@ impl Member {
         let shape = Progress::unheard(|progress| self.shape(brightness, progress))?;
         Ok((
             about.levels_db(&shape)?,
-            shape.unexplained(&brightness.values),
+            shape.unexplained(&brightness.views(self.light)),
         ))
     }
 }

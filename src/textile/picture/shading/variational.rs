@@ -6,14 +6,17 @@
 //! lowers the sum. Coarse tiles come first, and λ begins high and falls to what was asked for:
 //! broad forms are found first, which keeps steep weaves out of wrong valleys and is cheap. The
 //! albedo is fitted between steps. A tile is done when a step hardly lowers the sum any more.
+//!
+//! Pictures of one surface under several lights are summed over, and each point has an albedo of
+//! its own: the one that fits it best, drawn towards that of all by [`EVEN`].
 
 use std::f64::consts::TAU;
 
 use super::coarse::{resampled, sizes};
 use super::error::ShadingError;
-use super::reflectance::{Lambert, across, along, laplacian, residual};
+use super::reflectance::{Lambert, across, along, laplacian, residual, residual_of};
 use super::shape::{Found, ShadingOptions};
-use super::{Light, linear};
+use super::{View, linear};
 use selvedge_foundation::numerics::{Grid, PlaneTransform};
 use selvedge_foundation::progress::Progress;
 
@@ -30,16 +33,25 @@ const MIN_GAIN: f64 = 0.03;
 const TIKHONOV: f64 = 1e-7;
 /// Damping of a step, at first, and its limits.
 const DAMPING: [f64; 3] = [1e-7, 1e-3, 1e3];
+/// How many readings of its own the even albedo counts for at a point of several pictures.
+const EVEN: f64 = 0.3;
 /// Rounds of conjugate gradients, and the share of the first residual (squared) that ends them.
 const N_INNER: usize = 20;
 const INNER_END: f64 = 0.01;
 /// A step is halved so often at most.
 const N_HALVINGS: usize = 10;
 
-/// One surface that is being fitted.
-struct Fit<'a> {
-    brightness: &'a Grid<f64>,
+/// A picture of the surface.
+struct Seen {
+    brightness: Grid<f64>,
+    /// The same over each point's share of the albedo.
+    target: Grid<f64>,
     matt: Lambert,
+}
+
+/// One surface that is being fitted.
+struct Fit {
+    seen: Vec<Seen>,
     transform: PlaneTransform,
     albedo: f64,
     smoothness: f64,
@@ -92,18 +104,17 @@ impl Falling {
 }
 
 pub(super) fn solve(
-    brightness: &Grid<f64>,
-    light: Light,
+    views: &[View<'_>],
     options: &ShadingOptions,
     progress: &mut Progress<'_>,
 ) -> Result<Found, ShadingError> {
+    let &(brightness, light) = views.first().ok_or(ShadingError::Empty)?;
     let sizes = sizes(brightness.width(), brightness.height());
     let n_points = |[width, height]: [usize; 2]| (width * height) as f64;
     let whole: f64 = sizes.iter().copied().map(n_points).sum();
     let albedo = options.albedo_for(brightness, light);
     let flat = Grid::filled(brightness.width(), brightness.height(), 0.0);
-    let matt = Lambert::under(light);
-    let first = residual(brightness, albedo, &flat, matt);
+    let first = residual_of(views, albedo, &flat);
     let mut found = Found {
         height_px: flat,
         albedo,
@@ -112,15 +123,16 @@ pub(super) fn solve(
     };
     let (mut is_first, mut done, mut damping) = (true, 0.0, DAMPING[1]);
     for size in sizes {
-        let e = resampled(brightness, size);
+        let coarse: Vec<Grid<f64>> = views.iter().map(|(e, _)| resampled(e, size)).collect();
         let z = if is_first {
-            linear::heights(&e, light, options)
+            let lights = views.iter().map(|view| view.1);
+            let coarse: Vec<View<'_>> = coarse.iter().zip(lights).collect();
+            linear::heights(&coarse, options)
         } else {
             finer(&found.height_px, size)
         };
         let mut fit = Fit {
-            brightness: &e,
-            matt,
+            seen: coarse.into_iter().zip(views).map(Seen::of).collect(),
             transform: PlaneTransform::new(size[0], size[1]),
             albedo: found.albedo,
             smoothness: 0.0,
@@ -154,7 +166,17 @@ fn finer(coarse: &Grid<f64>, size: [usize; 2]) -> Grid<f64> {
     resampled(coarse, size).map(|z| z * factor)
 }
 
-impl Fit<'_> {
+impl Seen {
+    fn of((brightness, (_, light)): (Grid<f64>, &View<'_>)) -> Self {
+        Self {
+            target: brightness.clone(),
+            brightness,
+            matt: Lambert::under(*light),
+        }
+    }
+}
+
+impl Fit {
     /// Steps until they hardly help; hands back the residual after each. `part`: where in the
     /// whole work it begins and what share it is.
     fn run(
@@ -175,7 +197,7 @@ impl Fit<'_> {
             }
             let before = self.cost(&self.z);
             let after = self.step(before, progress, share)?;
-            residuals.push(residual(self.brightness, self.albedo, &self.z, self.matt));
+            residuals.push(self.residual());
             let is_settled = after >= before * (1.0 - MIN_GAIN);
             if done > falling.n && is_settled {
                 break;
@@ -184,26 +206,54 @@ impl Fit<'_> {
         Ok(residuals)
     }
 
-    /// The albedo that fits the surface as it is best; as before if all of it is dark.
+    /// The mean of |E/a − R|.
+    fn residual(&self) -> f64 {
+        let (p, q) = (along(&self.z), across(&self.z));
+        let of = |seen: &Seen| residual(&seen.target, self.albedo, [&p, &q], seen.matt);
+        self.seen.iter().map(of).sum::<f64>() / self.seen.len() as f64
+    }
+
+    /// The albedo that fits the surface as it is best; as before if all of it is dark. With several
+    /// pictures, that of each point then.
     fn fit_albedo(&mut self) {
         let (p, q) = (along(&self.z), across(&self.z));
-        let slopes = p.values().iter().zip(q.values());
-        let pairs = self.brightness.values().iter().zip(slopes);
-        let (er, rr) = pairs.fold((0.0, 0.0), |(er, rr), (e, (p, q))| {
-            let bright = self.matt.of(*p, *q).max(0.0);
-            (er + e * bright, rr + bright * bright)
-        });
-        if er > 0.0 && rr > 0.0 {
-            self.albedo = er / rr;
+        let slopes = || p.values().iter().zip(q.values());
+        let mut sums = (0.0, 0.0);
+        for seen in &self.seen {
+            let pairs = seen.target.values().iter().zip(slopes());
+            sums = pairs.fold(sums, |(er, rr), (e, (p, q))| {
+                let bright = seen.matt.of(*p, *q).max(0.0);
+                (er + e * bright, rr + bright * bright)
+            });
+        }
+        if sums.0 > 0.0 && sums.1 > 0.0 {
+            self.albedo = sums.0 / sums.1;
+        }
+        if self.seen.len() < 2 {
+            return;
+        }
+        for (i, (p, q)) in slopes().enumerate() {
+            let (er, rr) = self.seen.iter().fold((EVEN, EVEN), |(er, rr), seen| {
+                let bright = seen.matt.of(*p, *q).max(0.0);
+                let e = seen.brightness.values()[i] / self.albedo;
+                (er + e * bright, rr + bright * bright)
+            });
+            for seen in &mut self.seen {
+                seen.target.values_mut()[i] = seen.brightness.values()[i] * rr / er;
+            }
         }
     }
 
-    fn tangent(&self) -> Tangent {
+    fn tangents(&self) -> Vec<Tangent> {
+        self.seen.iter().map(|seen| self.tangent(seen)).collect()
+    }
+
+    fn tangent(&self, seen: &Seen) -> Tangent {
         let (mut by_p, mut by_q) = (along(&self.z), across(&self.z));
-        let mut missing = self.brightness.clone();
+        let mut missing = seen.target.clone();
         let slopes = by_p.values_mut().iter_mut().zip(by_q.values_mut());
         for (e, (p, q)) in missing.values_mut().iter_mut().zip(slopes) {
-            let [bright, dp, dq] = self.matt.with_slopes(*p, *q);
+            let [bright, dp, dq] = seen.matt.with_slopes(*p, *q);
             *e = *e / self.albedo - bright;
             (*p, *q) = (dp, dq);
         }
@@ -217,11 +267,14 @@ impl Fit<'_> {
     /// What is made least.
     fn cost(&self, z: &Grid<f64>) -> f64 {
         let (p, q) = (along(z), across(z));
-        let slopes = p.values().iter().zip(q.values());
-        let pairs = self.brightness.values().iter().zip(slopes);
-        let misfit: f64 = pairs
-            .map(|(e, (p, q))| (e / self.albedo - self.matt.of(*p, *q).max(0.0)).powi(2))
-            .sum();
+        let misfit = |seen: &Seen| -> f64 {
+            let slopes = p.values().iter().zip(q.values());
+            let pairs = seen.target.values().iter().zip(slopes);
+            pairs
+                .map(|(e, (p, q))| (e / self.albedo - seen.matt.of(*p, *q).max(0.0)).powi(2))
+                .sum()
+        };
+        let misfit: f64 = self.seen.iter().map(misfit).sum();
         misfit + self.smoothness * squares(&laplacian(z)) + TIKHONOV * squares(z)
     }
 
@@ -233,12 +286,12 @@ impl Fit<'_> {
         progress: &mut Progress<'_>,
         share: f64,
     ) -> Result<f64, ShadingError> {
-        let tangent = self.tangent();
-        let mut down = tangent.back(&tangent.missing);
+        let tangents = self.tangents();
+        let mut down = back(&tangents, |tangent| tangent.missing.clone());
         let bent = laplacian(&laplacian(&self.z));
         add(&mut down, -self.smoothness, &bent);
         add(&mut down, -TIKHONOV, &self.z);
-        let way = self.solved(&tangent, down, progress, share)?;
+        let way = self.solved(&tangents, down, progress, share)?;
         let mut length = 1.0;
         for _ in 0..N_HALVINGS {
             let mut z = self.z.clone();
@@ -260,13 +313,13 @@ impl Fit<'_> {
     /// `(JᵀJ + λ∇⁴ + μ) x = right` by conjugate gradients.
     fn solved(
         &mut self,
-        tangent: &Tangent,
+        tangents: &[Tangent],
         mut right: Grid<f64>,
         progress: &mut Progress<'_>,
         share: f64,
     ) -> Result<Grid<f64>, ShadingError> {
         let shift = TIKHONOV + self.damping;
-        let mean = tangent.mean_problem(self.smoothness, shift);
+        let mean = mean_problem(tangents, self.smoothness, shift);
         let mut x = Grid::filled(right.width(), right.height(), 0.0);
         let mut y = self.divided(&right, &mean);
         let mut way = y.clone();
@@ -278,7 +331,7 @@ impl Fit<'_> {
             }
             progress.step(share, "fitting heights")?;
             self.n_rounds += 1;
-            let mut image = tangent.back(&tangent.forth(&way));
+            let mut image = back(tangents, |tangent| tangent.forth(&way));
             add(&mut image, self.smoothness, &laplacian(&laplacian(&way)));
             add(&mut image, shift, &way);
             let length = now / dot(&way, &image);
@@ -333,22 +386,34 @@ impl Tangent {
         add(&mut change, 1.0, &across(&weighted(&self.by_q)));
         change
     }
+}
 
-    /// The transform of `JᵀJ` + λ∇⁴ + μ with J's weights in the mean.
-    fn mean_problem(&self, smoothness: f64, shift: f64) -> Grid<f64> {
-        let n = self.by_p.values().len().max(1) as f64;
-        let [pp, qq] = [&self.by_p, &self.by_q].map(|by| squares(by) / n);
-        let pq = dot(&self.by_p, &self.by_q) / n;
-        let (width, height) = (self.by_p.width(), self.by_p.height());
-        Grid::from_fn(width / 2 + 1, height, |column, row| {
-            let x = TAU * column as f64 / width as f64;
-            let y = TAU * row as f64 / height as f64;
-            let [sx, sy] = [x.sin(), y.sin()];
-            let bend = 2.0 * x.cos() + 2.0 * y.cos() - 4.0;
-            let slope = pp * sx * sx + qq * sy * sy + 2.0 * pq * sx * sy;
-            slope.max(0.0) + smoothness * bend * bend + shift
-        })
-    }
+/// The sum of Jᵀ over the pictures; none of no picture.
+fn back(tangents: &[Tangent], bright: impl Fn(&Tangent) -> Grid<f64>) -> Grid<f64> {
+    let all = tangents.iter().map(|tangent| tangent.back(&bright(tangent)));
+    let sum = all.reduce(|mut sum, next| {
+        add(&mut sum, 1.0, &next);
+        sum
+    });
+    sum.unwrap_or_else(|| Grid::filled(0, 0, 0.0))
+}
+
+/// The transform of `JᵀJ` + λ∇⁴ + μ with J's weights in the mean.
+fn mean_problem(tangents: &[Tangent], smoothness: f64, shift: f64) -> Grid<f64> {
+    let size = tangents.first().map(|one| [one.by_p.width(), one.by_p.height()]);
+    let [width, height] = size.unwrap_or([0; 2]);
+    let n = (width * height).max(1) as f64;
+    let sum = |of: fn(&Tangent) -> f64| tangents.iter().map(of).sum::<f64>() / n;
+    let [pp, qq] = [sum(|one| squares(&one.by_p)), sum(|one| squares(&one.by_q))];
+    let pq = sum(|one| dot(&one.by_p, &one.by_q));
+    Grid::from_fn(width / 2 + 1, height, |column, row| {
+        let x = TAU * column as f64 / width as f64;
+        let y = TAU * row as f64 / height as f64;
+        let [sx, sy] = [x.sin(), y.sin()];
+        let bend = 2.0 * x.cos() + 2.0 * y.cos() - 4.0;
+        let slope = pp * sx * sx + qq * sy * sy + 2.0 * pq * sx * sy;
+        slope.max(0.0) + smoothness * bend * bend + shift
+    })
 }
 
 fn add(to: &mut Grid<f64>, factor: f64, from: &Grid<f64>) {
