@@ -10,13 +10,10 @@
 
 use super::analysis::Found;
 use super::basis::{Basis, dot, length, whole};
-use super::light::mean_and_variance;
 use super::relief::ReliefOf;
-use super::PictureError;
-use super::shading::{Light, LightEstimate, ShadingError, ShadingOptions, Shape, Turns, View};
+use super::shading::{Light, LightEstimate, ShadingError, ShadingOptions, Shape};
 use super::source::between;
 use super::tile::Tile;
-use super::turned::Turned;
 use crate::surface::WINDOW_LENGTH_MM;
 use selvedge_foundation::numerics::{Grid, to_index};
 use selvedge_foundation::progress::Progress;
@@ -137,49 +134,6 @@ impl Brightness {
             turned: Vec::new(),
         }
     }
-
-    /// The same of what a picture and turned ones all show, as bright in each on the mean.
-    ///
-    /// # Errors
-    /// All together show too little.
-    pub fn of_turned(
-        luminance: &Grid<f64>,
-        turned: &[Turned],
-        found: Option<&Found>,
-    ) -> Result<Self, PictureError> {
-        let region = Turned::common(turned)?;
-        let angle_rad = found.map_or(0.0, Found::turn_rad);
-        let cut = |whole: &Grid<f64>| {
-            let part = whole.part(region);
-            Self::of_picture(part.as_ref().unwrap_or(whole), angle_rad)
-        };
-        let mut first = cut(luminance);
-        let (level, _) = mean_and_variance(&first.values);
-        for one in turned {
-            let values = cut(&one.luminance).values;
-            let factor = level / mean_and_variance(&values).0.max(f64::MIN_POSITIVE);
-            let values = values.map(|value| (value * factor).clamp(0.0, 1.0));
-            first.turned.push((values, one.map.turn_deg()));
-        }
-        Ok(first)
-    }
-
-    /// Itself and the turned ones under a light on the first picture.
-    pub(crate) fn views(&self, on_picture: Light) -> Vec<View<'_>> {
-        let first = (&self.values, self.light(on_picture));
-        let others = self.turned.iter().map(|(values, turn_deg)| {
-            let light = turned(on_picture, -turn_deg);
-            (values, self.light(light))
-        });
-        std::iter::once(first).chain(others).collect()
-    }
-
-    /// What turned pictures say of the lamp; `None` of a single one.
-    pub(crate) fn turns(&self) -> Option<Turns> {
-        let others = self.turned.iter().map(|(values, turn)| (values, *turn));
-        let pictures: Vec<_> = std::iter::once((&self.values, 0.0)).chain(others).collect();
-        (pictures.len() > 1).then(|| Turns::of(&pictures))
-    }
 }
 
 /// Rows of n samples, the last of longer ones gone over into their first.
@@ -264,7 +218,7 @@ impl Brightness {
 }
 
 /// The tilt grown by so much, −180° (not included) to 180°.
-fn turned(light: Light, by_deg: f64) -> Light {
+pub(super) fn turned(light: Light, by_deg: f64) -> Light {
     let tilt_deg = (light.tilt_deg + by_deg).rem_euclid(360.0);
     let tilt_deg = if tilt_deg > 180.0 {
         tilt_deg - 360.0

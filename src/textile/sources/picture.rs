@@ -72,7 +72,24 @@ keys! {
         /// is stated.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub(crate) synthesis: Option<Synthesis>,
+        /// Further pictures of the cloth that the heights were found on, turned.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        pub(crate) turned: Vec<TurnedPicture>,
     }
+}
+
+/// A further picture of a cloth, turned under the same lamp; it need not be there.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TurnedPicture {
+    /// Its file name.
+    pub picture: String,
+    /// Its SHA-256.
+    pub sha256: String,
+    /// By how much the cloth is turned in it, degrees counter-clockwise.
+    pub turn_deg: f64,
+    /// How far its match with the first stands out, 0 to 1.
+    pub score: f64,
 }
 
 /// Cloth that is synthesized of a map: its mean cell over and over, and what varies from cell to
@@ -142,6 +159,10 @@ impl PictureSource {
         }
         for mm in self.synthesis.iter().flat_map(|all| all.size_mm) {
             within("size_mm", mm, 1.0..=1000.0)?;
+        }
+        for one in &self.turned {
+            within("turn_deg", one.turn_deg, -360.0..=360.0)?;
+            within("score", one.score, 0.0..=1.0)?;
         }
         let cell_mm = self.synthesis.and_then(|all| all.cell_mm);
         for (key, vectors, least) in [

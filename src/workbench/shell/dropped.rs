@@ -124,8 +124,16 @@ impl Workbench {
             let files = std::mem::take(&mut input.raw.dropped_files);
             files.iter().map(|file| file.path().to_owned()).collect()
         });
+        // Pictures that are dropped together are of one cloth, turned.
+        let mut is_open = false;
         for path in paths {
-            self.take_path(path);
+            let is_picture = purpose_of(&path) == Some(Purpose::OpenPicture(Pane::Picture));
+            if is_picture && is_open && self.shell.shows(Pane::Picture) {
+                self.dispatch(FileCommand::Use(Purpose::AddTurned, path).into());
+            } else {
+                self.take_path(path);
+                is_open |= is_picture;
+            }
         }
     }
 

@@ -172,8 +172,14 @@ impl Ensemble {
         if let Some(estimate) = &mut relief.estimate {
             estimate.light = relief.light;
             let percent = 100.0 * self.belief_in_shading();
+            let known = match self.lamp {
+                Lamp::Turned { within_deg, .. } => {
+                    format!("The turned pictures put the tilt within {within_deg:.0}°")
+                }
+                _ => "The light is not known".to_owned(),
+            };
             estimate.words = format!(
-                "The light is not known: of {} reliefs, {percent:.0} % of the belief in shading, \
+                "{known}: of {} reliefs, {percent:.0} % of the belief in shading, \
                  this one is nearest to what all feel like.",
                 self.members.len()
             );

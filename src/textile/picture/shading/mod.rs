@@ -27,6 +27,7 @@ mod linear;
 mod reflectance;
 mod reliability;
 mod shape;
+mod tangent;
 #[cfg(test)]
 mod tests;
 mod tsai_shah;

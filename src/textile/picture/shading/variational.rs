@@ -10,12 +10,11 @@
 //! Pictures of one surface under several lights are summed over, and each point has an albedo of
 //! its own: the one that fits it best, drawn towards that of all by [`EVEN`].
 
-use std::f64::consts::TAU;
-
 use super::coarse::{resampled, sizes};
 use super::error::ShadingError;
 use super::reflectance::{Lambert, across, along, laplacian, residual, residual_of};
 use super::shape::{Found, ShadingOptions};
+use super::tangent::{Tangent, add, back, dot, mean_problem, squares};
 use super::{View, linear};
 use selvedge_foundation::numerics::{Grid, PlaneTransform};
 use selvedge_foundation::progress::Progress;
@@ -59,14 +58,6 @@ struct Fit {
     z: Grid<f64>,
     /// Rounds of conjugate gradients so far.
     n_rounds: usize,
-}
-
-/// The reflectance about the surface as it is.
-struct Tangent {
-    by_p: Grid<f64>,
-    by_q: Grid<f64>,
-    /// E/a − R.
-    missing: Grid<f64>,
 }
 
 /// How the weight of curvature falls over the iterations on one tile.
@@ -359,73 +350,4 @@ impl Fit {
         }
         self.transform.inverse(spectrum)
     }
-}
-
-impl Tangent {
-    /// J: the change of brightness with a change of heights.
-    fn forth(&self, change: &Grid<f64>) -> Grid<f64> {
-        let (mut bright, q) = (along(change), across(change));
-        let weights = self.by_p.values().iter().zip(self.by_q.values());
-        let pairs = weights.zip(q.values());
-        for (value, ((dp, dq), q)) in bright.values_mut().iter_mut().zip(pairs) {
-            *value = dp * *value + dq * q;
-        }
-        bright
-    }
-
-    /// Jᵀ. Central differences over what repeats are their own transpose with the other sign.
-    fn back(&self, bright: &Grid<f64>) -> Grid<f64> {
-        let weighted = |by: &Grid<f64>| {
-            let mut product = bright.clone();
-            for (value, weight) in product.values_mut().iter_mut().zip(by.values()) {
-                *value *= -weight;
-            }
-            product
-        };
-        let mut change = along(&weighted(&self.by_p));
-        add(&mut change, 1.0, &across(&weighted(&self.by_q)));
-        change
-    }
-}
-
-/// The sum of Jᵀ over the pictures; none of no picture.
-fn back(tangents: &[Tangent], bright: impl Fn(&Tangent) -> Grid<f64>) -> Grid<f64> {
-    let all = tangents.iter().map(|tangent| tangent.back(&bright(tangent)));
-    let sum = all.reduce(|mut sum, next| {
-        add(&mut sum, 1.0, &next);
-        sum
-    });
-    sum.unwrap_or_else(|| Grid::filled(0, 0, 0.0))
-}
-
-/// The transform of `JᵀJ` + λ∇⁴ + μ with J's weights in the mean.
-fn mean_problem(tangents: &[Tangent], smoothness: f64, shift: f64) -> Grid<f64> {
-    let size = tangents.first().map(|one| [one.by_p.width(), one.by_p.height()]);
-    let [width, height] = size.unwrap_or([0; 2]);
-    let n = (width * height).max(1) as f64;
-    let sum = |of: fn(&Tangent) -> f64| tangents.iter().map(of).sum::<f64>() / n;
-    let [pp, qq] = [sum(|one| squares(&one.by_p)), sum(|one| squares(&one.by_q))];
-    let pq = sum(|one| dot(&one.by_p, &one.by_q));
-    Grid::from_fn(width / 2 + 1, height, |column, row| {
-        let x = TAU * column as f64 / width as f64;
-        let y = TAU * row as f64 / height as f64;
-        let [sx, sy] = [x.sin(), y.sin()];
-        let bend = 2.0 * x.cos() + 2.0 * y.cos() - 4.0;
-        let slope = pp * sx * sx + qq * sy * sy + 2.0 * pq * sx * sy;
-        slope.max(0.0) + smoothness * bend * bend + shift
-    })
-}
-
-fn add(to: &mut Grid<f64>, factor: f64, from: &Grid<f64>) {
-    for (value, other) in to.values_mut().iter_mut().zip(from.values()) {
-        *value += factor * other;
-    }
-}
-
-fn dot(a: &Grid<f64>, b: &Grid<f64>) -> f64 {
-    a.values().iter().zip(b.values()).map(|(a, b)| a * b).sum()
-}
-
-fn squares(a: &Grid<f64>) -> f64 {
-    dot(a, a)
 }

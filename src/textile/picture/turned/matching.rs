@@ -14,9 +14,7 @@ use std::f64::consts::PI;
 use super::super::basis::Place;
 use super::super::source::between;
 use super::similarity::Similarity;
-use selvedge_foundation::numerics::{
-    Complex, Grid, PlaneTransform, QuadraticPeak, median,
-};
+use selvedge_foundation::numerics::{Complex, Grid, PlaneTransform, QuadraticPeak, median};
 
 /// Waves that are correlated: cycles a side at least, cycles a sample at most.
 const MIN_CYCLES: f64 = 2.5;
@@ -59,7 +57,8 @@ impl<'a> Halved<'a> {
         let (mut values, mut px) = (Cow::Borrowed(picture), 1.0);
         while step_px / px >= 2.0 {
             let four = |column: usize, row: usize| {
-                let pair = |row: usize| values.row(row)[2 * column] + values.row(row)[2 * column + 1];
+                let pair =
+                    |row: usize| values.row(row)[2 * column] + values.row(row)[2 * column + 1];
                 0.25 * (pair(2 * row) + pair(2 * row + 1))
             };
             let half = Grid::from_fn(values.width() / 2, values.height() / 2, four);
@@ -86,6 +85,8 @@ pub(super) struct Level<'a> {
     step_px: f64,
     window: Vec<f64>,
     transform: PlaneTransform,
+    /// Of every bin: cycles a sample, cosine and sine of twice its direction.
+    waves: Vec<[f64; 3]>,
     first: Grid<Complex>,
 }
 
@@ -104,6 +105,7 @@ impl<'a> Level<'a> {
             step_px,
             window: (0..n).map(|i| (PI * share(i)).sin().powi(2)).collect(),
             transform: PlaneTransform::new(n, n),
+            waves: (0..(n / 2 + 1) * n).map(|i| wave(i, n)).collect(),
             first: Grid::filled(n / 2 + 1, n, Complex::default()),
         };
         level.first = level.whitened(&Halved::of(first, step_px), |place| place);
@@ -130,27 +132,20 @@ impl<'a> Level<'a> {
             cut.values_mut()[i] = weight(i) * (value - sum / all);
         }
         let mut spectrum = self.transform.forward(&cut);
-        let places = spectrum.values().iter().enumerate();
-        let fine = places.filter(|(i, _)| self.wave(*i).0 > NOISE_PER_SAMPLE);
-        let mut noise: Vec<f64> = fine.map(|(_, f)| f.norm_sqr()).collect();
+        let waves = spectrum.values().iter().zip(&self.waves);
+        let fine = waves.filter(|(_, wave)| wave[0] > NOISE_PER_SAMPLE);
+        let mut noise: Vec<f64> = fine.map(|(f, _)| f.norm_sqr()).collect();
         let noise = NOISE_TIMES * median(&mut noise) + f64::MIN_POSITIVE;
-        for (i, f) in spectrum.values_mut().iter_mut().enumerate() {
-            let (per_sample, _) = self.wave(i);
-            let is_used = (MIN_CYCLES / n as f64..=MAX_PER_SAMPLE).contains(&per_sample);
-            let scale = if is_used { 1.0 / (f.norm_sqr() + noise).sqrt() } else { 0.0 };
+        for (f, wave) in spectrum.values_mut().iter_mut().zip(&self.waves) {
+            let is_used = (MIN_CYCLES / n as f64..=MAX_PER_SAMPLE).contains(&wave[0]);
+            let scale = if is_used {
+                1.0 / (f.norm_sqr() + noise).sqrt()
+            } else {
+                0.0
+            };
             *f *= scale;
         }
         spectrum
-    }
-
-    /// Cycles a sample of a bin, and the cosine and sine of twice its direction.
-    fn wave(&self, i: usize) -> (f64, [f64; 2]) {
-        let (columns, n) = (self.n / 2 + 1, self.n as f64);
-        let x = (i % columns) as f64 / n;
-        let y = (i / columns) as f64 / n;
-        let y = if y > 0.5 { y - 1.0 } else { y };
-        let square = (x * x + y * y).max(f64::MIN_POSITIVE);
-        (square.sqrt(), [(x * x - y * y) / square, 2.0 * x * y / square])
     }
 
     /// Matches the other picture under a similarity.
@@ -159,7 +154,7 @@ impl<'a> Level<'a> {
         let mut products = [0; 3].map(|_| self.first.clone());
         for (i, g) in other.values().iter().enumerate() {
             let product = self.first.values()[i].conj() * g;
-            let (_, [cos, sin]) = self.wave(i);
+            let [_, cos, sin] = self.waves[i];
             for (to, weight) in products.iter_mut().zip([1.0, cos, sin]) {
                 to.values_mut()[i] = product * weight;
             }
@@ -171,9 +166,8 @@ impl<'a> Level<'a> {
         let deviation = (turn * turn + 0.5).sqrt();
         let waves = cos.values().iter().zip(sin.values());
         let pairs = plain.values().iter().zip(waves);
-        let heights = pairs.map(|(c, (cos, sin))| {
-            c.max((turn * c + cos.hypot(*sin)) / deviation) / chance
-        });
+        let heights =
+            pairs.map(|(c, (cos, sin))| c.max((turn * c + cos.hypot(*sin)) / deviation) / chance);
         let heights = Grid::from_rows(self.n, heights.collect());
         heights.map_or(Matched::nothing(map), |heights| self.peak(&heights, map))
     }
@@ -203,4 +197,17 @@ impl<'a> Level<'a> {
             next: others.fold(0.0, f64::max),
         }
     }
+}
+
+/// Of a bin: cycles a sample, cosine and sine of twice its direction.
+fn wave(i: usize, n: usize) -> [f64; 3] {
+    let columns = n / 2 + 1;
+    let [x, y] = [i % columns, i / columns].map(|k| k as f64 / n as f64);
+    let y = if y > 0.5 { y - 1.0 } else { y };
+    let square = (x * x + y * y).max(f64::MIN_POSITIVE);
+    [
+        square.sqrt(),
+        (x * x - y * y) / square,
+        2.0 * x * y / square,
+    ]
 }

@@ -8,6 +8,7 @@ mod matching;
 mod similarity;
 #[cfg(test)]
 mod tests;
+mod together;
 
 pub use similarity::Similarity;
 
@@ -15,6 +16,7 @@ use std::path::Path;
 
 use super::PictureError;
 use super::basis::{Place, length, mix};
+use crate::sources::picture::TurnedPicture;
 use matching::{Level, Matched};
 use selvedge_foundation::numerics::{Grid, in_pieces, median, to_index};
 use selvedge_foundation::progress::Progress;
@@ -24,10 +26,10 @@ use selvedge_foundation::quantity::fixed;
 const SIDES: [usize; 3] = [64, 128, 256];
 /// Turns that are tried first, over a whole one, and scales.
 const N_TURNS: usize = 180;
-const SCALES: [f64; 3] = [0.97, 1.0, 1.03];
+const SCALES: [f64; 2] = [0.985, 1.015];
 /// What is tried about each of the best so far, on the next two levels: turns either side and their
 /// distance, degrees; shares of the scale; how many are kept, and how far apart.
-const ABOUT: [(i32, f64, f64, usize); 2] = [(2, 0.8, 0.01, 12), (1, 0.4, 0.005, 4)];
+const ABOUT: [(i32, f64, f64, usize); 2] = [(1, 0.8, 0.01, 8), (1, 0.4, 0.005, 2)];
 const APART_DEG: f64 = 5.0;
 /// A match that stands out less from the next best is none.
 const MIN_SCORE: f64 = 0.35;
@@ -117,6 +119,24 @@ impl Turned {
         })
     }
 
+    /// What a textile keeps of it.
+    pub fn kept(&self, picture: String, sha256: String) -> TurnedPicture {
+        let hundredths = |x: f64| (100.0 * x).round() / 100.0;
+        TurnedPicture {
+            picture,
+            sha256,
+            turn_deg: hundredths(self.map.turn_deg()),
+            score: hundredths(self.score),
+        }
+    }
+
+    /// How it lies over the first, in a line.
+    pub fn words(&self, name: &str) -> String {
+        let turn = fixed(self.map.turn_deg(), 1);
+        let (score, within) = (fixed(self.score, 2), fixed(self.residual_px, 2));
+        format!("{name} shows it turned by {turn}° (match {score}, within {within} px)")
+    }
+
     fn shows(&self, place: Place) -> bool {
         let at = self.map.at(place);
         (0..2).all(|axis| (0.0..=self.size[axis] - 1.0).contains(&at[axis]))
@@ -149,7 +169,10 @@ impl Turned {
         let short = size[0].min(size[1]);
         let largest = [size, [short; 2]].map(|size| {
             let halves = (0..100).map(|i| size.map(|n| 0.5 * n * (1.0 - 0.01 * f64::from(i))));
-            halves.into_iter().find(|half| fits(*half)).unwrap_or([0.0; 2])
+            halves
+                .into_iter()
+                .find(|half| fits(*half))
+                .unwrap_or([0.0; 2])
         });
         let [a, b] = largest;
         let half = if a[0] * a[1] >= b[0] * b[1] { a } else { b };
@@ -158,7 +181,9 @@ impl Turned {
         if w.min(h) < SIDES[0] {
             let what = format!("all pictures together show {w} × {h} px of the cloth");
             let mend = "turn it about the middle of the picture";
-            return Err(PictureError::Input(format!("{what}, 64 px are needed; {mend}")));
+            return Err(PictureError::Input(format!(
+                "{what}, 64 px are needed; {mend}"
+            )));
         }
         Ok([corner[0], corner[1], w, h])
     }
@@ -209,9 +234,15 @@ fn tried(
 ) -> Vec<Matched> {
     let level = Level::of(pictures, middle_of(pictures[0]), (n, side_px / n as f64));
     let mut all: Vec<Matched> = maps.into_iter().map(Matched::nothing).collect();
-    in_pieces(&mut all, 1, n_threads, || (), |(), _, one| {
-        one[0] = level.matched(one[0].map);
-    });
+    in_pieces(
+        &mut all,
+        1,
+        n_threads,
+        || (),
+        |(), _, one| {
+            one[0] = level.matched(one[0].map);
+        },
+    );
     all.sort_by(|a, b| b.height.total_cmp(&a.height));
     all
 }
@@ -230,12 +261,18 @@ fn refined(pictures: [&Grid<f64>; 2], map: Similarity, n_threads: usize) -> (Sim
     let (mut map, mut residual_px) = (map, 1.0);
     for _ in 0..N_ROUNDS {
         let mut pairs: Vec<Option<[Place; 2]>> = vec![None; places.len()];
-        in_pieces(&mut pairs, 1, n_threads, || (), |(), i, pair| {
-            let matched = Level::of(pictures, places[i], (PIECE, 1.0)).matched(map);
-            let moved = length(mix(matched.map.at(places[i]), 1.0, map.at(places[i]), -1.0));
-            let is_sure = matched.height > PIECE_CHANCE && moved < 0.25 * PIECE as f64;
-            pair[0] = is_sure.then(|| [places[i], matched.map.at(places[i])]);
-        });
+        in_pieces(
+            &mut pairs,
+            1,
+            n_threads,
+            || (),
+            |(), i, pair| {
+                let matched = Level::of(pictures, places[i], (PIECE, 1.0)).matched(map);
+                let moved = length(mix(matched.map.at(places[i]), 1.0, map.at(places[i]), -1.0));
+                let is_sure = matched.height > PIECE_CHANCE && moved < 0.25 * PIECE as f64;
+                pair[0] = is_sure.then(|| [places[i], matched.map.at(places[i])]);
+            },
+        );
         let mut pairs: Vec<[Place; 2]> = pairs.into_iter().flatten().collect();
         if pairs.len() < MIN_PIECES {
             break;

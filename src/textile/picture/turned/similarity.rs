@@ -84,11 +84,17 @@ impl Similarity {
     /// The other picture as the first has it, so many columns and rows.
     pub(super) fn laid(&self, other: &Grid<f64>, n: [usize; 2], n_threads: usize) -> Grid<f64> {
         let mut laid = Grid::filled(n[0], n[1], 0.0);
-        in_pieces(laid.values_mut(), n[0], n_threads, || (), |(), row, values| {
-            for (column, value) in values.iter_mut().enumerate() {
-                *value = cubic(other, self.at([column as f64, row as f64]));
-            }
-        });
+        in_pieces(
+            laid.values_mut(),
+            n[0],
+            n_threads,
+            || (),
+            |(), row, values| {
+                for (column, value) in values.iter_mut().enumerate() {
+                    *value = cubic(other, self.at([column as f64, row as f64]));
+                }
+            },
+        );
         laid
     }
 }

@@ -7,9 +7,10 @@ use crate::kit::widgets::relief3d::Relief3d;
 use crate::tools::picture::draft::Draft;
 use crate::tools::picture::images::Image;
 use selvedge_foundation::numerics::Grid;
+use selvedge_textile::TurnedPicture;
 use selvedge_textile::picture::{
     Autocorrelation, Directions, Found as Tiled, Lattice, Maxima, Picture, Relief,
-    SignificantMaxima,
+    SignificantMaxima, Turned,
 };
 use selvedge_textile::surface::Direction;
 
@@ -82,6 +83,9 @@ pub(crate) struct Made {
     pub profiles: Vec<(Direction, Vec<f64>, f64)>,
 }
 
+/// A further picture laid over the first and as a textile names it; why it could not be.
+pub(crate) type Laid = Result<(Turned, TurnedPicture), String>;
+
 /// What was made of a draft, as far as it went.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Found {
@@ -93,6 +97,8 @@ pub(crate) struct Found {
     pub correlated: Option<Arc<Correlated>>,
     /// See [`Cloth`].
     pub cloth: Option<Arc<Cloth>>,
+    /// Further pictures, one for each that was chosen: laid over the first, or why not.
+    pub(crate) turned: Option<Arc<Vec<Laid>>>,
     /// Heights in pixels, and what they were found on.
     pub shaped: Option<Arc<Relief>>,
     /// See [`Made`].

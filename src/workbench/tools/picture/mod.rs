@@ -52,6 +52,9 @@ impl Tool for Picture {
                 let reveal = ShowCommand::Reveal(Pane::Picture);
                 bench.commands.push(reveal.into());
             }
+            Command::File(FileCommand::Use(Purpose::AddTurned, path)) => {
+                self.add_turned(path.clone());
+            }
             Command::Library(LibraryCommand::Keep(keep)) => self.note_kept(keep),
             _ => {}
         }
