@@ -15,12 +15,11 @@ use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_textile::picture::brightness::Brightness;
 use selvedge_textile::picture::shading::{Light, Method, ShadingError, ShadingOptions};
 use selvedge_textile::picture::{
-    Analysis, EvenLight, Picture, PictureScale, Relief, ReliefOf, Turned, even_light,
+    Analysis, EvenLight, Picture, PictureScale, Relief, ReliefOf, Turned, TurnedPicture, even_light,
 };
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{
     BuiltFile, Construction, Description, Ensemble, HeightScale, Lamp, PictureTextile,
-    TurnedPicture,
 };
 
 /// How heights are found on the cell, and what becomes of them.

@@ -64,7 +64,7 @@ pub use sources::fourier::{
 };
 pub use sources::heightmap::Heightmap;
 pub use sources::knit::Knit;
-pub use sources::picture::{PictureSource, TurnedPicture};
+pub use sources::picture::PictureSource;
 pub use sources::profiles::Profiles;
 pub use sources::restoration::{Reduced, Restoration};
 pub use sources::weave::Weave;

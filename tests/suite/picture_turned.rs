@@ -8,7 +8,7 @@ use crate::program::Lab;
 const SIDE: usize = 200;
 
 /// Brightness of a fleece that repeats nowhere.
-fn fleece(seed: u64) -> Vec<f64> {
+pub(crate) fn fleece(seed: u64) -> Vec<f64> {
     let mut random = Random::new(seed);
     let mut values = vec![0.5; SIDE * SIDE];
     for _ in 0..2500 {
@@ -25,7 +25,7 @@ fn fleece(seed: u64) -> Vec<f64> {
 }
 
 /// A picture of it, reddish; turned by a quarter counter-clockwise so often.
-fn picture(values: &[f64], n_quarters: usize) -> Vec<u8> {
+pub(crate) fn picture(values: &[f64], n_quarters: usize) -> Vec<u8> {
     let at = |x: usize, y: usize| {
         let turned = |(x, y): (usize, usize)| (SIDE - 1 - y, x);
         let (x, y) = (0..n_quarters).fold((x, y), |place, _| turned(place));

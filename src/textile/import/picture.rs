@@ -12,10 +12,10 @@ use crate::manifest::{AppearanceKeys, Construction, MANIFEST, Manifest, Provenan
 use crate::metrology::{self, Measured};
 use crate::picture::brightness::Brightness;
 use crate::picture::shading::{ShadingError, Shape};
-use crate::picture::{PictureScale, Tile};
+use crate::picture::{PictureScale, Tile, TurnedPicture};
 use crate::recipe::{ProfileFiles, SourceKeys as _, source};
 use crate::sources::Source;
-use crate::sources::picture::{PictureSource, Synthesis, TurnedPicture};
+use crate::sources::picture::{PictureSource, Synthesis};
 use crate::surface::{Direction, HeightMap, Probe, ProfileSet, Representation, Surface};
 use crate::tactile::{Filters, Levels};
 use crate::yarns::PX_PER_MM;

@@ -8,6 +8,7 @@
 //! never guessed: everything here is in pixels.
 
 mod analysis;
+mod appearance;
 mod autocorrelation;
 mod basis;
 pub mod brightness;
@@ -56,7 +57,7 @@ pub use significant::{Significant, SignificantMaxima};
 pub use source::Picture;
 pub(crate) use synthesis::synthesized;
 pub use tile::{Rectangle, Tile};
-pub use turned::{Similarity, Turned};
+pub use turned::{Similarity, Turned, TurnedPicture};
 pub use unwarp::Unwarped;
 
 use selvedge_foundation::files::FileError;

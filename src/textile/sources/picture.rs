@@ -9,7 +9,7 @@ use super::heightmap::Heightmap;
 use crate::error::TextileError;
 use crate::metrology::{HeightOptions, Measured};
 use crate::picture::shading::{Light, Method};
-use crate::picture::{Basis, PictureScale, synthesized};
+use crate::picture::{Basis, PictureScale, TurnedPicture, synthesized};
 use crate::recipe::{Checker, HeightsFile, KeySpec, Recipe, defaults, keys};
 use crate::surface::{HeightMap, Probe, ProfileSet, Representation};
 use selvedge_foundation::files::FileError;
@@ -76,20 +76,6 @@ keys! {
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
         pub(crate) turned: Vec<TurnedPicture>,
     }
-}
-
-/// A further picture of a cloth, turned under the same lamp; it need not be there.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TurnedPicture {
-    /// Its file name.
-    pub picture: String,
-    /// Its SHA-256.
-    pub sha256: String,
-    /// By how much the cloth is turned in it, degrees counter-clockwise.
-    pub turn_deg: f64,
-    /// How far its match with the first stands out, 0 to 1.
-    pub score: f64,
 }
 
 /// Cloth that is synthesized of a map: its mean cell over and over, and what varies from cell to

@@ -14,9 +14,10 @@ pub use similarity::Similarity;
 
 use std::path::Path;
 
+use serde::{Deserialize, Serialize};
+
 use super::PictureError;
 use super::basis::{Place, length, mix};
-use crate::sources::picture::TurnedPicture;
 use matching::{Level, Matched};
 use selvedge_foundation::numerics::{Grid, in_pieces, median, to_index};
 use selvedge_foundation::progress::Progress;
@@ -58,6 +59,20 @@ pub struct Turned {
     /// How far pieces lie from the similarity, px, rms.
     pub residual_px: f64,
     size: [f64; 2],
+}
+
+/// A further picture of a cloth, turned under the same lamp; it need not be there.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TurnedPicture {
+    /// Its file name.
+    pub picture: String,
+    /// Its SHA-256.
+    pub sha256: String,
+    /// By how much the cloth is turned in it, degrees counter-clockwise.
+    pub turn_deg: f64,
+    /// How far its match with the first stands out, 0 to 1.
+    pub score: f64,
 }
 
 impl Turned {
@@ -210,7 +225,9 @@ fn found(pictures: [&Grid<f64>; 2], side_px: f64, n_threads: usize) -> (Matched,
     let kept = apart(&tried, 2);
     let best = kept[0];
     let other = kept.get(1).map_or(0.0, |other| other.height);
-    (best, 1.0 - best.next.max(other) / best.height.max(1e-9))
+    let is_seen = best.height > PIECE_CHANCE;
+    let score = 1.0 - best.next.max(other) / best.height.max(PIECE_CHANCE);
+    (best, if is_seen { score } else { 0.0 })
 }
 
 /// The best ones whose turns are apart, best first.

@@ -7,10 +7,9 @@ use crate::kit::widgets::relief3d::Relief3d;
 use crate::tools::picture::draft::Draft;
 use crate::tools::picture::images::Image;
 use selvedge_foundation::numerics::Grid;
-use selvedge_textile::TurnedPicture;
 use selvedge_textile::picture::{
     Autocorrelation, Directions, Found as Tiled, Lattice, Maxima, Picture, Relief,
-    SignificantMaxima, Turned,
+    SignificantMaxima, Turned, TurnedPicture,
 };
 use selvedge_textile::surface::Direction;
 

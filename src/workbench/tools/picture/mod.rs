@@ -13,6 +13,7 @@ pub(crate) mod found;
 pub(crate) mod images;
 pub(crate) mod state;
 pub(crate) mod textures;
+pub(crate) mod turned;
 pub(crate) mod view;
 pub(crate) mod work;
 

@@ -8,21 +8,21 @@ use crate::bench::latest::Computed;
 use crate::bench::source_file::SourceFile;
 use crate::kit::widgets::relief3d::Relief3d;
 use crate::tools::picture::draft::{Draft, Part};
-use crate::tools::picture::found::{Cloth, Correlated, Found, Laid, Loaded, Made, Step};
+use crate::tools::picture::found::{Cloth, Correlated, Found, Loaded, Made, Step};
 use crate::tools::picture::images;
+use crate::tools::picture::turned::{even, laid, turned};
 use selvedge_foundation::files::sha256_hex;
 use selvedge_foundation::numerics::{Grid, extent};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_textile::picture::brightness::Brightness;
 use selvedge_textile::picture::shading::{ShadingError, ShadingOptions};
 use selvedge_textile::picture::{
-    Autocorrelation, Basis, DirectionOptions, Directions, EvenLight, Found as Tiled, Lattice,
-    Maxima, Picture, PictureError, Relief, ReliefOf, SignificantMaxima, Turned, even_light,
+    Autocorrelation, Basis, DirectionOptions, Directions, Found as Tiled, Lattice, Maxima, Picture,
+    PictureError, Relief, ReliefOf, SignificantMaxima, Turned, TurnedPicture, even_light,
 };
 use selvedge_textile::surface::Direction;
 use selvedge_textile::{
-    Construction, Ensemble, Lamp, PictureTextile, TextileError, TurnedPicture, Uncertainty,
-    n_threads, smd_um,
+    Construction, Ensemble, Lamp, PictureTextile, TextileError, Uncertainty, n_threads, smd_um,
 };
 
 /// Why a run ended early.
@@ -190,15 +190,6 @@ fn loaded(inputs: &Draft) -> Result<Loaded, End> {
     })
 }
 
-/// Whether uneven light is divided out.
-fn even(inputs: &Draft) -> EvenLight {
-    if inputs.is_evened {
-        EvenLight::Auto
-    } else {
-        EvenLight::Off
-    }
-}
-
 fn correlated(inputs: &Draft, loaded: &Loaded) -> Result<Correlated, End> {
     let part = match inputs.part {
         Part::Whole => Ok(loaded.picture.clone()),
@@ -220,52 +211,6 @@ fn correlated(inputs: &Draft, loaded: &Loaded) -> Result<Correlated, End> {
         was_evened,
         read,
     })
-}
-
-/// Lays the further pictures over the first.
-fn turned(
-    inputs: &Draft,
-    correlated: &Correlated,
-    progress: &mut Progress<'_>,
-) -> Result<Vec<Laid>, Cancelled> {
-    let mut all = Vec::new();
-    for file in &inputs.turned {
-        let picture = match file.bytes() {
-            _ if inputs.part != Part::Whole => {
-                Err("further pictures go with the whole picture; choose part “all”".to_owned())
-            }
-            Ok(bytes) => Picture::load(bytes, file.file_name())
-                .map(|picture| (picture, sha256_hex([bytes])))
-                .map_err(|error| error.to_string()),
-            Err(line) => Err(line.to_owned()),
-        };
-        let (picture, sha256) = match picture {
-            Ok(read) => read,
-            Err(line) => {
-                all.push(Err(line));
-                continue;
-            }
-        };
-        let (luminance, _) = even_light(picture.luminance, even(inputs));
-        let other = (&luminance, file.file_name());
-        all.push(
-            match Turned::of(&correlated.luminance, other, n_threads(), progress) {
-                Ok(one) => {
-                    let kept = one.kept(file.name(), sha256);
-                    Ok((one, kept))
-                }
-                Err(PictureError::Cancelled(cancelled)) => return Err(cancelled),
-                Err(error) => Err(error.to_string()),
-            },
-        );
-    }
-    Ok(all)
-}
-
-/// Further pictures that could be laid over the first, and as a textile names them.
-fn laid(found: &Found) -> (Vec<Turned>, Vec<TurnedPicture>) {
-    let all = found.turned.iter().flat_map(|all| all.iter());
-    all.flatten().cloned().unzip()
 }
 
 fn cloth(
