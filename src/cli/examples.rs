@@ -50,7 +50,11 @@ const EXAMPLES: &[(&str, &[&str])] = &[
     ),
     (
         "picture",
-        &["selvedge picture cloth.jpg --out cloth --px-per-mm 24"],
+        &[
+            "selvedge picture cloth.jpg --out cloth --px-per-mm 24",
+            "selvedge picture cloth.jpg --turned cloth-90.jpg --turned cloth-45.jpg --out cloth \
+             --dpi 600 --smd-um 4 --textile my/cloth",
+        ],
     ),
     (
         "mds",

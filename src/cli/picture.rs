@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::picture_relief::{Origin, ReliefArgs, describe_none};
+use super::picture_relief::{Origin, ReliefArgs, Seen, describe_none};
 use super::terminal::{self, with_meter};
 use super::{CliError, output};
 use selvedge_foundation::progress::Progress;
@@ -157,13 +157,20 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
         n_threads,
     };
     let work = |progress: &mut Progress<'_>| -> Result<_, CliError> {
+        let colour = chosen.colour.clone();
         let analysis = Analysis::of(chosen, &options, progress)?;
         let px_per_mm = args.px_per_mm(&analysis)?;
         let of = (&origin, args.scale().zip(px_per_mm));
         let is_felt = analysis.found.is_ok() || args.relief.is_asked();
-        let felt = is_felt.then(|| args.relief.felt(&analysis, of, n_threads, progress));
+        let even = args.even_light;
+        let seen = Seen {
+            turned: args.relief.laid(&analysis, even, n_threads, progress)?,
+            analysis,
+            colour,
+        };
+        let felt = is_felt.then(|| args.relief.felt(&seen, of, n_threads, progress));
         let felt = felt.transpose()?;
-        Ok((analysis, px_per_mm, felt))
+        Ok((seen.analysis, px_per_mm, felt))
     };
     let (analysis, px_per_mm, felt) = with_meter("picture", work)??;
     let mut about = args.about(px_per_mm);

@@ -9,11 +9,14 @@ use super::textile_words::construction;
 use super::usage::one_of;
 use super::{CliError, terminal};
 use selvedge_foundation::files::sha256_hex;
+use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_textile::picture::brightness::Brightness;
 use selvedge_textile::picture::shading::{Light, Method, ShadingError, ShadingOptions};
-use selvedge_textile::picture::{Analysis, PictureScale, Relief, ReliefOf};
+use selvedge_textile::picture::{
+    Analysis, EvenLight, Picture, PictureScale, Relief, ReliefOf, Turned, TurnedPicture, even_light,
+};
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{
     BuiltFile, Construction, Description, Ensemble, HeightScale, Lamp, PictureTextile,
@@ -22,6 +25,10 @@ use selvedge_textile::{
 /// How heights are found on the cell, and what becomes of them.
 #[derive(Debug, Args)]
 pub(super) struct ReliefArgs {
+    /// A further picture of the same cloth, turned by any angle in the plane under the same lamp;
+    /// can be said three times. Heights, albedo and the light's tilt are then found together
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["region", "corners"])]
+    turned: Vec<PathBuf>,
     /// Where the light came from: degrees from straight above, and degrees counter-clockwise from
     /// +x (to the right) towards the light, y up; estimated if not said
     #[arg(long, value_name = "SLANT,TILT", value_parser = light_from, allow_hyphen_values = true)]
@@ -94,6 +101,20 @@ pub(super) struct Felt {
     files: Option<Vec<BuiltFile>>,
     /// What to do about a wide band.
     advice: Option<String>,
+    /// How further pictures lie over the first, in a line each.
+    turned: Vec<String>,
+}
+
+/// Further pictures at most.
+const MAX_TURNED: usize = 3;
+
+/// What was seen of the cloth.
+pub(super) struct Seen {
+    pub(super) analysis: Analysis,
+    /// Shares of red and green in the picture.
+    pub(super) colour: Option<Grid<[f32; 2]>>,
+    /// Further pictures, laid over it, and as its textile names them.
+    pub(super) turned: Vec<(Turned, TurnedPicture)>,
 }
 
 /// The picture as its textile names it.
@@ -125,6 +146,16 @@ impl ReliefArgs {
             return refuse(&format!("--smd-um needs the picture's scale; {mend}"));
         }
         let options = self.options();
+        if self.turned.len() > MAX_TURNED {
+            return refuse("--turned takes up to three further pictures; leave some out");
+        }
+        let is_several = !self.turned.is_empty();
+        if is_several && self.relief_of == ReliefOf::Cell {
+            return refuse("--turned goes with --relief-of picture or synthesized");
+        }
+        if is_several && self.shading == Some(Method::TsaiShah) {
+            return refuse("--shading tsai-shah takes one picture; leave --turned out");
+        }
         if self.extent_mm.is_some() && self.relief_of != ReliefOf::Synthesized {
             return refuse("--extent-mm goes with --relief-of synthesized");
         }
@@ -138,6 +169,7 @@ impl ReliefArgs {
     /// Whether heights were asked for in any way, so that none are an error.
     pub(super) fn is_asked(&self) -> bool {
         let words = [
+            !self.turned.is_empty(),
             self.light.is_some(),
             self.shading.is_some(),
             self.iterations.is_some(),
@@ -190,19 +222,45 @@ impl ReliefArgs {
         }
     }
 
+    /// Reads the further pictures and lays them over the first.
+    pub(super) fn laid(
+        &self,
+        analysis: &Analysis,
+        even: EvenLight,
+        n_threads: usize,
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<(Turned, TurnedPicture)>, CliError> {
+        let mut all = Vec::new();
+        for path in &self.turned {
+            let bytes = selvedge_textile::read_measurement(path)?;
+            let (luminance, _) = even_light(Picture::load(&bytes, path)?.luminance, even);
+            let one = Turned::of(&analysis.luminance, (&luminance, path), n_threads, progress)?;
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let kept = one.kept(name.into_owned(), sha256_hex([bytes.as_slice()]));
+            all.push((one, kept));
+        }
+        Ok(all)
+    }
+
     /// Finds the heights of a picture; why there are none where nobody asked.
     pub(super) fn felt(
         &self,
-        analysis: &Analysis,
+        seen: &Seen,
         (origin, scaled): (&Origin<'_>, Option<(PictureScale, f64)>),
         n_threads: usize,
         progress: &mut Progress<'_>,
     ) -> Result<Result<Felt, String>, CliError> {
         let px_per_mm = scaled.map(|(_, px_per_mm)| px_per_mm);
         let path = origin.path.display();
-        let found = analysis.found.as_ref().ok();
-        let ground = (self.relief_of, &analysis.luminance);
-        let Some(brightness) = Brightness::ground(ground, found, px_per_mm, n_threads) else {
+        let found = seen.analysis.found.as_ref().ok();
+        let (turned, kept): (Vec<_>, Vec<_>) = seen.turned.iter().cloned().unzip();
+        let ground = (self.relief_of, &seen.analysis.luminance);
+        let brightness = if turned.is_empty() {
+            Brightness::ground(ground, found, px_per_mm, n_threads)
+        } else {
+            Some(Brightness::of_turned(ground.1, &turned, found)?)
+        };
+        let Some(brightness) = brightness else {
             let what = "there is no lattice and so no cell";
             let mend = "leave --relief-of cell out";
             return Err(CliError::Input(format!("{path}: {what}; {mend}")));
@@ -217,6 +275,9 @@ impl ReliefArgs {
         };
         let mut about = self.about(origin, scaled);
         about.size_px = Some(relief.brightness.size_px);
+        about.turned = kept;
+        let shares = (seen.colour.as_ref(), turned.as_slice());
+        about.colours = Some(relief.brightness.colours(shares, (self.relief_of, found)));
         let advice = match &self.textile {
             Some(_) => {
                 let own = (&mut relief, self.shading.is_some());
@@ -239,6 +300,11 @@ impl ReliefArgs {
         Ok(Ok(Felt {
             relief,
             relief_um,
+            turned: seen
+                .turned
+                .iter()
+                .map(|(one, kept)| one.words(&kept.picture))
+                .collect(),
             files: made.map(|made| made.files),
             advice,
         }))
@@ -264,9 +330,14 @@ impl ReliefArgs {
             None => format!("{}, unscaled", with_unit(felt.relief.relief_px(), 2, "px")),
         };
         let (out, words) = (out.display(), &felt.relief.shape.reliability);
+        let laid: String = felt
+            .turned
+            .iter()
+            .map(|one| format!("{out}: {one}\n"))
+            .collect();
         let first = format!("{out}: heights by {by} under light of slant {slant}°, tilt {tilt}°");
         let mut described =
-            format!("{first}{estimated}\n{out}: {height} from lowest to highest. {words}\n");
+            format!("{laid}{first}{estimated}\n{out}: {height} from lowest to highest. {words}\n");
         if let (Some(folder), Some(files)) = (&self.textile, &felt.files) {
             selvedge_textile::write(files, folder)?;
             let line = format!("{}: the textile\n", folder.display());

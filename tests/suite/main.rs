@@ -34,6 +34,7 @@ mod no_allocation_engine;
 mod old_designs;
 mod picture;
 mod picture_scale;
+mod picture_turned;
 mod picture_variation;
 mod probe;
 mod program;

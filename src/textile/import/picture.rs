@@ -5,14 +5,14 @@ use std::path::Path;
 
 use super::description::manifest_file;
 use super::height_scale::{HeightScale, ScaledRelief, no_surface};
-use super::profile_files::{profile_files, shaded};
+use super::profile_files::{coloured, profile_files, shaded};
 use crate::build::{BuiltFile, PICTURE};
 use crate::error::TextileError;
 use crate::manifest::{AppearanceKeys, Construction, MANIFEST, Manifest, Provenance, Uncertainty};
 use crate::metrology::{self, Measured};
 use crate::picture::brightness::Brightness;
 use crate::picture::shading::{ShadingError, Shape};
-use crate::picture::{PictureScale, Tile};
+use crate::picture::{PictureScale, Tile, TurnedPicture};
 use crate::recipe::{ProfileFiles, SourceKeys as _, source};
 use crate::sources::Source;
 use crate::sources::picture::{PictureSource, Synthesis};
@@ -20,7 +20,7 @@ use crate::surface::{Direction, HeightMap, Probe, ProfileSet, Representation, Su
 use crate::tactile::{Filters, Levels};
 use crate::yarns::PX_PER_MM;
 use selvedge_foundation::files::sha256_hex;
-use selvedge_foundation::numerics::Random;
+use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_foundation::quantity::level_db;
 
 /// The name of the map in the textile's folder.
@@ -45,6 +45,11 @@ pub struct PictureTextile {
     pub scale: HeightScale,
     /// File name and SHA-256 of the picture.
     pub picture: Option<[String; 2]>,
+    /// Further pictures of the cloth, turned.
+    pub turned: Vec<TurnedPicture>,
+    /// Red, green and blue of what was cut from the picture, 0…1, row 0 the lowest y: what the
+    /// textile looks like; `None`: its relief, lit.
+    pub colours: Option<[Grid<f64>; 3]>,
     /// The vectors by which its pattern repeats, px, x to the right and y up.
     pub lattice_px: Option<[[f64; 2]; 2]>,
     /// The extent of cloth that is synthesized of the shape and felt in its place, mm; `None`: the
@@ -100,16 +105,22 @@ pub(crate) fn to_textile(
     (keys.relief_um, keys.smd_um) = (rounded(scaled.relief_um), scaled.smd_um);
     let bytes = metrology::write(&measured(&scaled.map, &about.name), path)?;
     keys.sha256 = Some(sha256_hex([bytes.as_slice()]));
-    drawn(bytes, keys, path, |keys| manifest(about, keys))
+    let size_mm = scaled.map.size_mm();
+    let image = about.colours.as_ref().map(|all| coloured(all, size_mm));
+    let image = image.map(|image| image.to_small_png(Path::new(PICTURE)));
+    drawn((bytes, image.transpose()?), keys, path, |keys| {
+        manifest(about, keys)
+    })
 }
 
-/// The files of a textile made again of its map, as its manifest says.
+/// The files of a textile made again of its map, as its manifest says; it looks as it did.
 pub(super) fn again(
     manifest: &Manifest,
     keys: &PictureSource,
     (bytes, path): (Vec<u8>, &Path),
+    image: Option<Vec<u8>>,
 ) -> Result<Vec<BuiltFile>, TextileError> {
-    let made = drawn(bytes, keys.clone(), path, |keys| Manifest {
+    let made = drawn((bytes, image), keys.clone(), path, |keys| Manifest {
         source: Source::Picture(Box::new(keys)),
         ..manifest.clone()
     })?;
@@ -118,7 +129,7 @@ pub(super) fn again(
 
 /// Map, strokes over the map as the file has it, and picture, with their manifest.
 fn drawn(
-    bytes: Vec<u8>,
+    (bytes, image): (Vec<u8>, Option<Vec<u8>>),
     mut keys: PictureSource,
     path: &Path,
     manifest: impl FnOnce(PictureSource) -> Manifest,
@@ -128,9 +139,14 @@ fn drawn(
     let profiles = keys.map().strokes(&kept, path)?;
     let mut files = vec![BuiltFile::new(&keys.file, bytes)];
     files.extend(profile_files(&profiles)?);
-    let image = shaded(&kept).map_err(no_surface)?;
-    let bytes = image.to_small_png(Path::new(PICTURE))?;
-    files.push(BuiltFile::new(PICTURE, bytes));
+    let image = match image {
+        Some(image) => image,
+        None => {
+            let relief = shaded(&kept).map_err(no_surface)?;
+            relief.to_small_png(Path::new(PICTURE))?
+        }
+    };
+    files.push(BuiltFile::new(PICTURE, image));
     let hash = Source::Picture(Box::new(keys.clone())).recipe_hash(path)?;
     keys.set_files(ProfileFiles::all(), Some(hash));
     let relief_um = keys.relief_um;
@@ -184,7 +200,7 @@ impl PictureTextile {
 impl PictureTextile {
     /// What is felt of a shape as a textile: levels of warp and weft by band, dB re 1 µm, under a
     /// wire as wide as a contactor at a few places.
-    pub(super) fn levels_db(&self, shape: &Shape) -> Result<[[f64; 2]; 2], TextileError> {
+    pub(crate) fn levels_db(&self, shape: &Shape) -> Result<[[f64; 2]; 2], TextileError> {
         let map = heights(shape, self, &keys(shape, self))?.map;
         let mut means_um = [[0.0; 2]; 2];
         for place in PLACES {
@@ -274,6 +290,7 @@ fn keys(shape: &Shape, about: &PictureTextile) -> PictureSource {
         noise_um: Probe::default().noise_um,
         seed: 1,
         synthesis: None,
+        turned: about.turned.clone(),
     })
 }
 

@@ -61,6 +61,22 @@ pub(super) fn shaded(measured: &Measured) -> Result<Rgb8Image, SurfaceError> {
     })
 }
 
+/// A picture of red, green and blue, 0…1, row 0 the lowest, from the top row on.
+pub(super) fn coloured(channels: &[Grid<f64>; 3], size_mm: [f64; 2]) -> Rgb8Image {
+    let [red, green, blue] = channels.each_ref().map(|values| {
+        pooled(values, size_mm)
+            .turned_over()
+            .map(|x| to_byte(255.0 * x + 0.5))
+    });
+    let others = green.values().iter().zip(blue.values());
+    let pixels = red.values().iter().zip(others);
+    Rgb8Image {
+        width: red.width(),
+        height: red.height(),
+        pixels: pixels.map(|(r, (g, b))| [*r, *g, *b]).collect(),
+    }
+}
+
 /// The grey of a slope; `None`: missing.
 fn grey(slope: Option<f64>, rms: f64) -> [u8; 3] {
     let Some(slope) = slope else {

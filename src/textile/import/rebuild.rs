@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::heights::HeightImport;
 use super::{picture, read_measurement};
-use crate::build::{BuiltFile, build};
+use crate::build::{BuiltFile, PICTURE, build};
 use crate::error::TextileError;
 use crate::manifest::{MANIFEST, Manifest};
 use crate::sources::Source;
@@ -36,7 +36,8 @@ pub fn rebuilt(folder: &Path, heights: Option<&Path>) -> Result<Vec<BuiltFile>, 
         }
         Source::Picture(keys) => {
             let (bytes, path) = read(&keys.file)?;
-            picture::again(&manifest, keys, (bytes, &path))
+            let image = std::fs::read(folder.join(PICTURE)).ok();
+            picture::again(&manifest, keys, (bytes, &path), image)
         }
         Source::Profiles(_) => {
             let what = "its strokes are the measurement itself";

@@ -52,6 +52,9 @@ pub struct Brightness {
     pub angle_rad: f64,
     /// What it is.
     pub(crate) extent: Extent,
+    /// The same of further pictures, as bright on the mean, and by how much the cloth is turned in
+    /// each, degrees counter-clockwise.
+    pub(crate) turned: Vec<(Grid<f64>, f64)>,
 }
 
 impl Brightness {
@@ -82,6 +85,7 @@ impl Brightness {
                 extent: Extent::Repeat {
                     shear_rad: rectangle.shear_rad,
                 },
+                turned: Vec::new(),
             },
             None => synthesized(tile, px_per_mm, n_threads),
         }
@@ -127,6 +131,7 @@ impl Brightness {
             values: upright(&cut),
             angle_rad,
             extent: Extent::Repeat { shear_rad: 0.0 },
+            turned: Vec::new(),
         }
     }
 }
@@ -165,6 +170,7 @@ fn synthesized(tile: &Tile, px_per_mm: f64, n_threads: usize) -> Brightness {
         size_px: n.map(|n| n as f64 * step_px),
         angle_rad,
         extent: Extent::Patch { seam_px },
+        turned: Vec::new(),
     }
 }
 
@@ -196,19 +202,23 @@ impl Brightness {
         turned(here, -self.angle_rad.to_degrees())
     }
 
-    /// Estimates the light on the picture, from this.
+    /// Estimates the light on the picture, from this; its tilt from turned pictures, if there are.
     ///
     /// # Errors
     /// All is black.
     pub fn estimated_light(&self) -> Result<LightEstimate, ShadingError> {
         let mut estimate = LightEstimate::of(&self.values)?;
+        if let Some(turns) = self.turns() {
+            estimate.light.tilt_deg = turns.light().tilt_deg;
+            estimate.words = turns.words();
+        }
         estimate.light = self.light_on_picture(estimate.light);
         Ok(estimate)
     }
 }
 
 /// The tilt grown by so much, −180° (not included) to 180°.
-fn turned(light: Light, by_deg: f64) -> Light {
+pub(super) fn turned(light: Light, by_deg: f64) -> Light {
     let tilt_deg = (light.tilt_deg + by_deg).rem_euclid(360.0);
     let tilt_deg = if tilt_deg > 180.0 {
         tilt_deg - 360.0
@@ -231,8 +241,7 @@ impl Brightness {
     ) -> Result<Shape, ShadingError> {
         // A light that is out of range is refused in the user's own numbers.
         on_picture.check()?;
-        let light = self.light(on_picture);
-        Shape::from_shading(&self.values, light, options, progress)
+        Shape::from_views(&self.views(on_picture), options, progress)
     }
 }
 
@@ -434,6 +443,7 @@ mod tests {
             size_px: [4.0, 4.0],
             angle_rad: 0.5,
             extent: Extent::Repeat { shear_rad: 0.0 },
+            turned: Vec::new(),
         };
         let here = cut.light(Light {
             slant_deg: 40.0,

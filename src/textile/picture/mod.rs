@@ -8,6 +8,7 @@
 //! never guessed: everything here is in pixels.
 
 mod analysis;
+mod appearance;
 mod autocorrelation;
 mod basis;
 pub mod brightness;
@@ -31,6 +32,7 @@ mod significant;
 mod source;
 mod synthesis;
 mod tile;
+mod turned;
 mod unwarp;
 mod weave_name;
 
@@ -55,6 +57,7 @@ pub use significant::{Significant, SignificantMaxima};
 pub use source::Picture;
 pub(crate) use synthesis::synthesized;
 pub use tile::{Rectangle, Tile};
+pub use turned::{Similarity, Turned, TurnedPicture};
 pub use unwarp::Unwarped;
 
 use selvedge_foundation::files::FileError;

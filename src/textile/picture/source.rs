@@ -9,6 +9,8 @@ use selvedge_foundation::numerics::{Grid, to_index, to_whole};
 
 /// Channels that differ by more than this share of white are coloured.
 const COLOURED: f64 = 0.02;
+/// What red, green and blue do to the luminance.
+pub(super) const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 /// A rectified picture has at most this many pixels on a side.
 const MAX_SIDE: f64 = 16_000.0;
 /// And at most this many in all.
@@ -33,8 +35,9 @@ impl Picture {
     pub fn load(bytes: &[u8], path: &Path) -> Result<Self, FileError> {
         let decoded = Rgb16Image::decode(bytes, path)?;
         let white = f64::from(u16::MAX);
+        let [of_red, of_green, of_blue] = LUMINANCE;
         let luminance = |&[r, g, b]: &[u16; 3]| {
-            (0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)) / white
+            (of_red * f64::from(r) + of_green * f64::from(g) + of_blue * f64::from(b)) / white
         };
         let is_coloured = decoded.pixels.iter().any(|p| {
             let max = p.iter().max().copied().unwrap_or(0);

@@ -9,7 +9,7 @@ use super::heightmap::Heightmap;
 use crate::error::TextileError;
 use crate::metrology::{HeightOptions, Measured};
 use crate::picture::shading::{Light, Method};
-use crate::picture::{Basis, PictureScale, synthesized};
+use crate::picture::{Basis, PictureScale, TurnedPicture, synthesized};
 use crate::recipe::{Checker, HeightsFile, KeySpec, Recipe, defaults, keys};
 use crate::surface::{HeightMap, Probe, ProfileSet, Representation};
 use selvedge_foundation::files::FileError;
@@ -72,6 +72,9 @@ keys! {
         /// is stated.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub(crate) synthesis: Option<Synthesis>,
+        /// Further pictures of the cloth that the heights were found on, turned.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        pub(crate) turned: Vec<TurnedPicture>,
     }
 }
 
@@ -142,6 +145,10 @@ impl PictureSource {
         }
         for mm in self.synthesis.iter().flat_map(|all| all.size_mm) {
             within("size_mm", mm, 1.0..=1000.0)?;
+        }
+        for one in &self.turned {
+            within("turn_deg", one.turn_deg, -360.0..=360.0)?;
+            within("score", one.score, 0.0..=1.0)?;
         }
         let cell_mm = self.synthesis.and_then(|all| all.cell_mm);
         for (key, vectors, least) in [

@@ -92,6 +92,10 @@ impl AskWords {
                 let file = ["/path/to/NAME.txt", "strokes.txt", ""];
                 Self::new(["Add a file of measurements", "Add"], FILE, file)
             }
+            Purpose::AddTurned => {
+                let file = ["/path/to/NAME.png", "cloth-90.png", ""];
+                Self::new(["Add a turned picture", "Add"], FILE, file)
+            }
             Purpose::OpenPicture(pane) => {
                 let file = ["/path/to/NAME.png", "cloth.png", ""];
                 let title = match pane {

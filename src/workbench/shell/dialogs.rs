@@ -232,7 +232,9 @@ fn dialog(purpose: Purpose, start: Option<&Path>) -> rfd::FileDialog {
         Purpose::OpenDrape => dialog.add_filter("Hanging cloths", &["drape.toml", "toml"]),
         Purpose::OpenHands | Purpose::SaveHands => dialog.add_filter("Hands", &["csv"]),
         Purpose::ImportFiles => dialog.add_filter("Measurements", &MEASUREMENTS),
-        Purpose::OpenPicture(_) => dialog.add_filter("Pictures", &PICTURE_ENDINGS),
+        Purpose::OpenPicture(_) | Purpose::AddTurned => {
+            dialog.add_filter("Pictures", &PICTURE_ENDINGS)
+        }
         Purpose::OpenDesign | Purpose::SaveDesign => dialog.add_filter("Designs", &["toml"]),
         Purpose::OpenLogs | Purpose::WriteReport | Purpose::AddLibrary => {
             return in_folder(dialog, start);
@@ -269,6 +271,7 @@ fn with_ending(purpose: Purpose, path: PathBuf) -> PathBuf {
         Purpose::Export(_) => ".png",
         Purpose::ImportFiles
         | Purpose::OpenPicture(_)
+        | Purpose::AddTurned
         | Purpose::OpenDrape
         | Purpose::OpenHands
         | Purpose::AddLibrary

@@ -124,8 +124,20 @@ impl Workbench {
             let files = std::mem::take(&mut input.raw.dropped_files);
             files.iter().map(|file| file.path().to_owned()).collect()
         });
+        self.take_dropped(paths);
+    }
+
+    /// Takes what was dropped together: pictures are of one cloth, turned.
+    fn take_dropped(&mut self, paths: Vec<PathBuf>) {
+        let mut is_open = false;
         for path in paths {
-            self.take_path(path);
+            let is_picture = purpose_of(&path) == Some(Purpose::OpenPicture(Pane::Picture));
+            if is_picture && is_open && self.shell.shows(Pane::Picture) {
+                self.dispatch(FileCommand::Use(Purpose::AddTurned, path).into());
+            } else {
+                self.take_path(path);
+                is_open |= is_picture;
+            }
         }
     }
 
@@ -169,7 +181,9 @@ impl Workbench {
 mod tests {
 
     use super::*;
+    use crate::bench::source_file::SourceFile;
     use crate::shell::headless::Headless;
+    use crate::tools::picture::Picture;
     use selvedge_scratch::ScratchFolder;
 
     #[test]
@@ -235,6 +249,24 @@ mod tests {
                 .text
                 .contains("readme.md: nothing to open; drop a scene")
         );
+    }
+
+    #[test]
+    fn pictures_that_are_dropped_together_are_of_one_cloth() {
+        let root = ScratchFolder::made("dropped-pictures");
+        let mut window = Headless::shipped();
+        window.pass(2);
+        let pictures = ["a.png", "b.png"].map(|name| root.join(name));
+        for path in &pictures {
+            fs::write(path, "no picture").unwrap();
+        }
+        window.workbench.take_dropped(pictures.to_vec());
+        window.pass(2);
+        let picture = window.workbench.tools.get::<Picture>().unwrap();
+        let name = |file: &SourceFile| file.name();
+        assert_eq!(picture.draft.source.as_ref().map(name).unwrap(), "a.png");
+        let turned: Vec<String> = picture.draft.turned.iter().map(name).collect();
+        assert_eq!(turned, ["b.png"]);
     }
 
     #[test]

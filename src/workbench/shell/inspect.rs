@@ -227,6 +227,11 @@ impl Workbench {
         self.dispatch(FileCommand::Use(Purpose::OpenPicture(Pane::Picture), path).into());
     }
 
+    /// Takes a further picture of the cloth, turned.
+    pub fn add_turned_picture(&mut self, path: PathBuf) {
+        self.dispatch(FileCommand::Use(Purpose::AddTurned, path).into());
+    }
+
     /// Ticks that never were because the engine came too late.
     pub fn n_ticks_missed(&self) -> u64 {
         self.bench.live.status.missed

@@ -158,3 +158,38 @@ fn a_lattice_that_is_dragged_shows_what_it_explains_and_is_taken_back() {
     let chosen = harness.query_by_label_contains("chosen, explains");
     assert!(chosen.is_none(), "it was taken back");
 }
+
+#[test]
+fn a_turned_picture_says_its_turn_and_how_well_it_matches_and_can_be_left_out() {
+    use crate::picture_turned::{fleece, picture};
+
+    let folder = Folder::new("picture-turned");
+    let values = fleece(3);
+    let mut harness = with_picture(&folder, |path| {
+        fs::write(path, picture(&values, 0)).unwrap()
+    });
+    for (name, bytes) in [
+        ("b.png", picture(&values, 1)),
+        ("c.png", picture(&fleece(4), 0)),
+    ] {
+        let path = folder.path(name);
+        fs::write(&path, bytes).unwrap();
+        harness.state_mut().add_turned_picture(path);
+        harness.run_steps(4);
+    }
+    let turned = harness.query_by_label_contains("b.png shows it turned by 90.0° (match 0.");
+    assert!(turned.is_some(), "the turn");
+    let refused = harness.query_by_label_contains("c.png: it does not show the cloth");
+    assert!(refused.is_some(), "another cloth");
+    harness.render().unwrap();
+    let remove: Vec<_> = harness
+        .get_all_by_role_and_label(Role::Button, "Remove")
+        .collect();
+    assert_eq!(remove.len(), 2);
+    remove[1].click();
+    harness.run_steps(4);
+    let refused = harness.query_by_label_contains("c.png");
+    assert!(refused.is_none(), "left out");
+    let turned = harness.query_by_label_contains("b.png shows it turned by 90.0°");
+    assert!(turned.is_some(), "still there");
+}

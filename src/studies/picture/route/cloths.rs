@@ -45,7 +45,7 @@ impl Taking {
     /// In words.
     pub(super) fn name(&self) -> String {
         let light = match self.lamp {
-            Lamp::Unknown => "light unknown",
+            Lamp::Unknown | Lamp::Turned { .. } => "light unknown",
             Lamp::Known { light, .. } if light == LIGHT => "light known",
             Lamp::Known { .. } => "light 15° off",
         };

@@ -172,7 +172,7 @@ impl Subject {
     fn told(&self, luminance: &Grid<f64>) -> Result<Light, String> {
         match self.lamp {
             Lamp::Known { light, .. } => Ok(light),
-            Lamp::Unknown => {
+            Lamp::Unknown | Lamp::Turned { .. } => {
                 let estimate = LightEstimate::of(luminance).map_err(|error| error.to_string())?;
                 Ok(estimate.believed().light)
             }

@@ -30,6 +30,13 @@ pub enum Lamp {
     },
     /// Nothing.
     Unknown,
+    /// What pictures of the cloth turned under it say.
+    Turned {
+        /// On the first picture, y up.
+        tilt_deg: f64,
+        /// Half of the interval that it is drawn from, degrees.
+        within_deg: f64,
+    },
 }
 
 impl Lamp {
@@ -49,6 +56,13 @@ impl Lamp {
             Self::Unknown => Light {
                 slant_deg: along(SLANTS_DEG, b),
                 tilt_deg: along([-180.0, 180.0], a),
+            },
+            Self::Turned {
+                tilt_deg,
+                within_deg,
+            } => Light {
+                slant_deg: along(SLANTS_DEG, b),
+                tilt_deg: tilt_deg + along([-within_deg, within_deg], a),
             },
         }
     }
@@ -114,7 +128,7 @@ impl Member {
             ..ShadingOptions::default()
         };
         let shape = Progress::unheard(|p| brightness.shape(self.light, &options, p))?;
-        let unexplained = shape.unexplained(&brightness.values);
+        let unexplained = shape.unexplained(&brightness.views(self.light));
         Ok((about.levels_db(&shape)?, unexplained, shape))
     }
 }

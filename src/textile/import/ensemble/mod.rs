@@ -14,7 +14,7 @@ use super::picture::PictureTextile;
 use crate::error::TextileError;
 use crate::picture::Relief;
 use crate::picture::brightness::Brightness;
-use crate::picture::shading::{Evidence, Method, Shape};
+use crate::picture::shading::{Evidence, Method, Shape, Turns};
 use crate::tactile::Band;
 use design::{Member, N_DEEP, N_SHADED, drawn};
 use selvedge_foundation::numerics::{bisected, extent, in_pieces};
@@ -71,6 +71,14 @@ impl Ensemble {
         n_threads: usize,
         progress: &mut Progress<'_>,
     ) -> Result<Self, TextileError> {
+        let turns = brightness.turns();
+        let lamp = match &turns {
+            Some(turns) if lamp == Lamp::Unknown => Lamp::Turned {
+                tilt_deg: brightness.light_on_picture(turns.light()).tilt_deg,
+                within_deg: turns.within_deg,
+            },
+            _ => lamp,
+        };
         let mut members = drawn(lamp);
         let mut tried: Vec<Tried> = members.iter().map(|_| None).collect();
         let n = members.len();
@@ -83,7 +91,7 @@ impl Ensemble {
             };
             in_pieces(&mut tried[first..end], 1, n_threads, || (), work);
         }
-        weigh(&mut members, &tried, brightness);
+        weigh(&mut members, &tried, (brightness, turns.as_ref()));
         let (mut felt, mut shapes, mut failed) = (Vec::new(), Vec::new(), None);
         for (member, tried) in members.into_iter().zip(tried) {
             match tried {
@@ -163,8 +171,14 @@ impl Ensemble {
         if let Some(estimate) = &mut relief.estimate {
             estimate.light = relief.light;
             let percent = 100.0 * self.belief_in_shading();
+            let known = match self.lamp {
+                Lamp::Turned { within_deg, .. } => {
+                    format!("The turned pictures put the tilt within {within_deg:.0}°")
+                }
+                _ => "The light is not known".to_owned(),
+            };
             estimate.words = format!(
-                "The light is not known: of {} reliefs, {percent:.0} % of the belief in shading, \
+                "{known}: of {} reliefs, {percent:.0} % of the belief in shading, \
                  this one is nearest to what all feel like.",
                 self.members.len()
             );
@@ -244,7 +258,11 @@ fn nearest_to_median(members: &[Member]) -> usize {
 
 /// Gives every member its weight: half of the belief to each model before the picture is looked
 /// at, then by its waves over direction and, among lights, by what the drawn picture leaves.
-fn weigh(members: &mut [Member], tried: &[Tried], brightness: &Brightness) {
+fn weigh(
+    members: &mut [Member],
+    tried: &[Tried],
+    (brightness, turns): (&Brightness, Option<&Turns>),
+) {
     let evidence = Evidence::of(&brightness.values);
     let unexplained = |i: usize| match &tried[i] {
         Some(Ok((_, share, _))) => Some(share + NOISE_SHARE),
@@ -258,7 +276,9 @@ fn weigh(members: &mut [Member], tried: &[Tried], brightness: &Brightness) {
         }
         let tilt_deg = brightness.light(member.light).tilt_deg;
         let left = unexplained(i).map_or(f64::INFINITY, |share| share / best);
-        evidence.log_odds(tilt_deg) - 0.5 * N_READINGS * left.ln() - (N_SHADED as f64).ln()
+        let odds = turns.map(|turns| turns.log_odds(tilt_deg));
+        let odds = odds.unwrap_or_else(|| evidence.log_odds(tilt_deg));
+        odds - 0.5 * N_READINGS * left.ln() - (N_SHADED as f64).ln()
     };
     let logs: Vec<f64> = members.iter().enumerate().map(log_belief).collect();
     let [_, most] = extent(logs.iter().copied());

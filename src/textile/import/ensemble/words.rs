@@ -47,7 +47,7 @@ impl Ensemble {
         };
         Some(format!(
             "A{hz} along the {way} may lie {} dB from what is felt: {why}; \
-             give {lamp}{smd}a stroke of the tester, or a picture with the lamp on another side",
+             give {lamp}{smd}a stroke of the tester, or further pictures of it, turned (--turned)",
             Uncertainty::range_words([low, high])
         ))
     }

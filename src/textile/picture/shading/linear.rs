@@ -6,27 +6,31 @@
 
 use std::f64::consts::TAU;
 
-use super::Light;
-use super::reflectance::{Lambert, residual};
+use super::View;
+use super::reflectance::residual_of;
 use super::shape::{Blind, Found, Method, ShadingOptions, mean};
 use selvedge_foundation::numerics::{Complex, Grid, PlaneTransform};
 
 /// The regulariser unless stated.
 const REGULARISER: f64 = 0.1;
 
-/// H of every wave vector of a half transform, and ε.
+/// H of every wave vector of a half transform, by pictures, and ε.
 struct Weights {
-    h: Grid<f64>,
+    h: Vec<Grid<f64>>,
     epsilon: f64,
 }
 
 impl Weights {
-    fn of(brightness: &Grid<f64>, light: Light, options: &ShadingOptions) -> Self {
-        let (width, height) = (brightness.width(), brightness.height());
-        let lean = light.lean();
-        let h = Grid::from_fn(width / 2 + 1, height, |column, row| {
-            -(lean[0] * wavenumber(column, width) + lean[1] * wavenumber(row, height))
-        });
+    fn of(views: &[View<'_>], options: &ShadingOptions) -> Self {
+        let (width, height) = size_of(views);
+        let h_of = |&(_, light): &View<'_>| {
+            let lean = light.lean();
+            Grid::from_fn(width / 2 + 1, height, |column, row| {
+                -(lean[0] * wavenumber(column, width) + lean[1] * wavenumber(row, height))
+            })
+        };
+        let h = views.iter().map(h_of).collect();
+        let lean = views.first().map_or([0.0; 2], |view| view.1.lean());
         // The variational method's regulariser is of another kind.
         let stated = options.regulariser;
         let is_linear = options.method == Method::Linear;
@@ -35,6 +39,16 @@ impl Weights {
         let epsilon = (share * once) * (share * once);
         Self { h, epsilon }
     }
+
+    /// The sum of |H|² over the pictures.
+    fn squares(&self, row: usize, column: usize) -> f64 {
+        self.h.iter().map(|h| h.row(row)[column].powi(2)).sum()
+    }
+}
+
+fn size_of(views: &[View<'_>]) -> (usize, usize) {
+    let first = views.first();
+    first.map_or((0, 0), |(e, _)| (e.width(), e.height()))
 }
 
 /// Wavenumber of bin k of n, rad/px; 0 at the Nyquist bin, where a slope has no sign.
@@ -53,24 +67,31 @@ fn contrast(brightness: &Grid<f64>, transform: &PlaneTransform) -> Grid<Complex>
     transform.forward(&brightness.map(|e| e / level - 1.0))
 }
 
-/// Heights by the linear inversion, px.
-pub(super) fn heights(brightness: &Grid<f64>, light: Light, options: &ShadingOptions) -> Grid<f64> {
-    let transform = PlaneTransform::new(brightness.width(), brightness.height());
-    let mut spectrum = contrast(brightness, &transform);
-    let weights = Weights::of(brightness, light, options);
-    let pairs = spectrum.values_mut().iter_mut().zip(weights.h.values());
-    for (f, h) in pairs {
-        *f = Complex::new(0.0, -h) * *f / (h * h + weights.epsilon);
+/// Heights by the linear inversion of all pictures together, px: `Σ H* F / (Σ |H|² + ε)`.
+pub(super) fn heights(views: &[View<'_>], options: &ShadingOptions) -> Grid<f64> {
+    let (width, height) = size_of(views);
+    let transform = PlaneTransform::new(width, height);
+    let weights = Weights::of(views, options);
+    let mut sum = Grid::filled(width / 2 + 1, height, Complex::default());
+    for ((brightness, _), h) in views.iter().zip(&weights.h) {
+        let spectrum = contrast(brightness, &transform);
+        let pairs = spectrum.values().iter().zip(h.values());
+        for (sum, (f, h)) in sum.values_mut().iter_mut().zip(pairs) {
+            *sum += Complex::new(0.0, -h) * f;
+        }
     }
-    transform.inverse(spectrum)
+    for row in 0..height {
+        for (column, f) in sum.row_mut(row).iter_mut().enumerate() {
+            *f /= weights.squares(row, column) + weights.epsilon;
+        }
+    }
+    transform.inverse(sum)
 }
 
-pub(super) fn solve(brightness: &Grid<f64>, light: Light, options: &ShadingOptions) -> Found {
-    let height_px = heights(brightness, light, options);
-    let albedo = options.albedo_for(brightness, light);
-    let flat = Grid::filled(brightness.width(), brightness.height(), 0.0);
-    let matt = Lambert::under(light);
-    let residuals = [&flat, &height_px].map(|z| residual(brightness, albedo, z, matt));
+pub(super) fn solve(views: &[View<'_>], albedo: f64, options: &ShadingOptions) -> Found {
+    let height_px = heights(views, options);
+    let flat = height_px.map(|_| 0.0);
+    let residuals = [&flat, &height_px].map(|z| residual_of(views, albedo, z));
     Found {
         height_px,
         albedo,
@@ -79,15 +100,17 @@ pub(super) fn solve(brightness: &Grid<f64>, light: Light, options: &ShadingOptio
     }
 }
 
-/// What the light cannot show of a tile.
-pub(super) fn blind(brightness: &Grid<f64>, light: Light, options: &ShadingOptions) -> Blind {
-    let (width, height) = (brightness.width(), brightness.height());
+/// What the lights cannot show of a tile, by the first picture.
+pub(super) fn blind(views: &[View<'_>], options: &ShadingOptions) -> Blind {
+    let (width, height) = size_of(views);
+    let Some((brightness, _)) = views.first() else {
+        return Blind::default();
+    };
     let spectrum = contrast(brightness, &PlaneTransform::new(width, height));
-    let weights = Weights::of(brightness, light, options);
+    let weights = Weights::of(views, options);
     let [mut n, mut n_blind, mut energy, mut blind] = [0.0_f64; 4];
     for row in 0..height {
-        let pairs = spectrum.row(row).iter().zip(weights.h.row(row));
-        for (column, (f, h)) in pairs.enumerate() {
+        for (column, f) in spectrum.row(row).iter().enumerate() {
             if row == 0 && column == 0 {
                 continue;
             }
@@ -97,7 +120,7 @@ pub(super) fn blind(brightness: &Grid<f64>, light: Light, options: &ShadingOptio
             let power = count * f.norm_sqr();
             n += count;
             energy += power;
-            if h * h < weights.epsilon {
+            if weights.squares(row, column) < weights.epsilon {
                 n_blind += count;
                 blind += power;
             }

@@ -9,7 +9,8 @@
 //! - [`Method::Variational`]: R as it is, least squares with a smoothness, from the linear one on;
 //! - [`Method::DarkIsDeep`]: light from all sides, which gaps between yarns keep out.
 //!
-//! Which of both models a picture speaks for, and under which light: [`Evidence`].
+//! Which of both models a picture speaks for, and under which light: [`Evidence`]; what pictures of
+//! the cloth turned under one lamp say of both: [`Turns`].
 //!
 //! # Invariants
 //! - x runs along rows, y across them; **row 0 is the lowest y** as in height maps, so pictures,
@@ -30,6 +31,7 @@ mod tangent;
 #[cfg(test)]
 mod tests;
 mod tsai_shah;
+mod turns;
 mod variational;
 
 pub use error::ShadingError;
@@ -37,6 +39,7 @@ pub(crate) use evidence::Evidence;
 pub use light::{Light, LightEstimate};
 pub use reflectance::picture_of;
 pub use shape::{Edges, Method, ShadingOptions, Shape};
+pub(crate) use turns::Turns;
 
 use std::f64::consts::TAU;
 
@@ -46,6 +49,9 @@ use selvedge_foundation::numerics::{Grid, PlaneTransform};
 use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::factor_of_gain;
 use shape::{MAX_ITERATIONS, mean};
+
+/// Brightness 0…1, and the light that it was taken under; row 0 is the lowest y.
+pub(crate) type View<'a> = (&'a Grid<f64>, Light);
 
 impl Shape {
     /// Heights from brightness 0…1 under a light; row 0 is the lowest y.
@@ -59,8 +65,27 @@ impl Shape {
         options: &ShadingOptions,
         progress: &mut Progress<'_>,
     ) -> Result<Self, ShadingError> {
-        check(brightness, options)?;
-        light.check()?;
+        Self::from_views(&[(brightness, light)], options, progress)
+    }
+
+    /// Heights of a surface that was taken under several lights; the same place at the same point,
+    /// as bright on the mean.
+    ///
+    /// What all pictures agree in is albedo, point by point. Dark is deep takes their mean; Tsai &
+    /// Shah's iteration takes the first alone.
+    ///
+    /// # Errors
+    /// As [`Self::from_shading`]; no picture.
+    pub(crate) fn from_views(
+        views: &[View<'_>],
+        options: &ShadingOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, ShadingError> {
+        let &(brightness, light) = views.first().ok_or(ShadingError::Empty)?;
+        for (brightness, light) in views {
+            check(brightness, options)?;
+            light.check()?;
+        }
         let is_singular = options.method == Method::TsaiShah && tsai_shah::is_singular(light);
         if is_singular {
             return Err(ShadingError::Singular);
@@ -73,11 +98,14 @@ impl Shape {
         progress.step(0.0, "shape from shading")?;
         let found = match options.method {
             Method::TsaiShah => tsai_shah::solve(brightness, light, options, progress)?,
-            Method::Linear => linear::solve(brightness, light, options),
-            Method::Variational => variational::solve(brightness, light, options, progress)?,
-            Method::DarkIsDeep => depth::solve(brightness, options),
+            Method::Linear => {
+                let albedo = options.albedo_for(brightness, light);
+                linear::solve(views, albedo, options)
+            }
+            Method::Variational => variational::solve(views, options, progress)?,
+            Method::DarkIsDeep => depth::solve(&mean_of(views, brightness), options),
         };
-        let blind = linear::blind(brightness, light, options);
+        let blind = linear::blind(views, options);
         progress.step(1.0, "shape from shading")?;
         Ok(Self {
             height_px: about_mean(&found.height_px),
@@ -91,22 +119,25 @@ impl Shape {
         })
     }
 
-    /// The share of a picture's variance that it leaves when it is drawn again, self-shadow and
-    /// all, by shading; by dark is deep, nothing.
-    pub(crate) fn unexplained(&self, brightness: &Grid<f64>) -> f64 {
+    /// The share of the pictures' variance that it leaves when they are drawn again, self-shadow
+    /// and all, by shading; by dark is deep, nothing.
+    pub(crate) fn unexplained(&self, views: &[View<'_>]) -> f64 {
         if !Method::OF_SHADING.contains(&self.method) {
             return 0.0;
         }
-        let level = mean(brightness);
-        let drawn = picture_of(&self.height_px, self.light);
-        let pairs = brightness.values().iter().zip(drawn.values());
-        let [left, all] = pairs.fold([0.0, 1e-12], |[left, all], (e, r)| {
-            [
-                left + (e - self.albedo * r).powi(2),
-                all + (e - level).powi(2),
-            ]
-        });
-        left / all
+        let mut sums = [0.0, 1e-12];
+        for &(brightness, light) in views {
+            let level = mean(brightness);
+            let drawn = picture_of(&self.height_px, light);
+            let pairs = brightness.values().iter().zip(drawn.values());
+            sums = pairs.fold(sums, |[left, all], (e, r)| {
+                [
+                    left + (e - self.albedo * r).powi(2),
+                    all + (e - level).powi(2),
+                ]
+            });
+        }
+        sums[0] / sums[1]
     }
 
     /// The same relief with its waves by gains of warp (x) and weft (y) at 40 and 320 Hz, dB, as
@@ -179,6 +210,17 @@ fn check(brightness: &Grid<f64>, options: &ShadingOptions) -> Result<(), Shading
         value: n as f64,
         range: "1 to 10000",
     })
+}
+
+/// What pictures show on the mean: what does not turn with the light.
+fn mean_of(views: &[View<'_>], first: &Grid<f64>) -> Grid<f64> {
+    let mut sum = first.map(|_| 0.0);
+    for (view, _) in views {
+        for (sum, e) in sum.values_mut().iter_mut().zip(view.values()) {
+            *sum += e / views.len() as f64;
+        }
+    }
+    sum
 }
 
 fn about_mean(grid: &Grid<f64>) -> Grid<f64> {

@@ -2,7 +2,7 @@
 
 use selvedge_foundation::numerics::Grid;
 
-use super::Light;
+use super::{Light, View};
 
 /// A matt (Lambertian) surface of albedo 1 under a distant light.
 #[derive(Debug, Clone, Copy)]
@@ -117,9 +117,20 @@ pub(super) fn after(i: usize, n: usize) -> usize {
     (i + 1) % n
 }
 
-/// The mean of |E/a − R| of heights in px.
-pub(super) fn residual(target: &Grid<f64>, albedo: f64, z: &Grid<f64>, matt: Lambert) -> f64 {
+/// The mean of |E/a − R| of heights in px, over all pictures.
+pub(super) fn residual_of(views: &[View<'_>], albedo: f64, z: &Grid<f64>) -> f64 {
     let (p, q) = (along(z), across(z));
+    let of = |&(e, light): &View<'_>| residual(e, albedo, [&p, &q], Lambert::under(light));
+    views.iter().map(of).sum::<f64>() / views.len().max(1) as f64
+}
+
+/// The same of one picture and slopes.
+pub(super) fn residual(
+    target: &Grid<f64>,
+    albedo: f64,
+    [p, q]: [&Grid<f64>; 2],
+    matt: Lambert,
+) -> f64 {
     let slopes = p.values().iter().zip(q.values());
     let pairs = target.values().iter().zip(slopes);
     let sum: f64 = pairs

@@ -36,7 +36,7 @@ impl Tangent {
     }
 
     /// Jᵀ. Central differences over what repeats are their own transpose with the other sign.
-    pub(super) fn back(&self, bright: &Grid<f64>) -> Grid<f64> {
+    fn back(&self, bright: &Grid<f64>) -> Grid<f64> {
         let weighted = |by: &Grid<f64>| {
             let mut product = bright.clone();
             for (value, weight) in product.values_mut().iter_mut().zip(by.values()) {
@@ -48,28 +48,42 @@ impl Tangent {
         add(&mut change, 1.0, &across(&weighted(&self.by_q)));
         change
     }
-
-    /// One over the transform of `JᵀJ` + λ∇⁴ + μ with J's weights in the mean.
-    pub(super) fn mean_problem(&self, smoothness: f64, shift: f64) -> Grid<f64> {
-        let n = self.by_p.values().len().max(1) as f64;
-        let [pp, qq] = [&self.by_p, &self.by_q].map(|by| squares(by) / n);
-        let pq = dot(&self.by_p, &self.by_q) / n;
-        let [xs, ys] = [self.by_p.width(), self.by_p.height()].map(|n| {
-            let wave = |k: usize| (TAU * k as f64 / n as f64).sin_cos();
-            (0..n).map(wave).collect::<Vec<_>>()
-        });
-        Grid::from_fn(xs.len() / 2 + 1, ys.len(), |column, row| {
-            let ((sx, cx), (sy, cy)) = (xs[column], ys[row]);
-            let bend = 2.0 * cx + 2.0 * cy - 4.0;
-            let slope = pp * sx * sx + qq * sy * sy + 2.0 * pq * sx * sy;
-            1.0 / (slope.max(0.0) + smoothness * bend * bend + shift)
-        })
-    }
 }
 
-/// `JᵀJ + λ∇⁴ + μ`, and room for its parts.
+/// The way down: the sum of `Jᵀ` of what is missing over the pictures.
+pub(super) fn down(tangents: &[Tangent], [width, height]: [usize; 2]) -> Grid<f64> {
+    let mut sum = Grid::filled(width, height, 0.0);
+    for tangent in tangents {
+        add(&mut sum, 1.0, &tangent.back(&tangent.missing));
+    }
+    sum
+}
+
+/// One over the transform of the sum of `JᵀJ` over the pictures + λ∇⁴ + μ with J's weights in the
+/// mean.
+pub(super) fn mean_problem(tangents: &[Tangent], smoothness: f64, shift: f64) -> Grid<f64> {
+    let [width, height] = (tangents.first()).map_or([0; 2], |one| {
+        [one.by_p.width(), one.by_p.height()]
+    });
+    let n = (width * height).max(1) as f64;
+    let sum = |of: fn(&Tangent) -> f64| tangents.iter().map(of).sum::<f64>() / n;
+    let [pp, qq] = [sum(|one| squares(&one.by_p)), sum(|one| squares(&one.by_q))];
+    let pq = sum(|one| dot(&one.by_p, &one.by_q));
+    let [xs, ys] = [width, height].map(|n| {
+        let wave = |k: usize| (TAU * k as f64 / n as f64).sin_cos();
+        (0..n).map(wave).collect::<Vec<_>>()
+    });
+    Grid::from_fn(xs.len() / 2 + 1, ys.len(), |column, row| {
+        let ((sx, cx), (sy, cy)) = (xs[column], ys[row]);
+        let bend = 2.0 * cx + 2.0 * cy - 4.0;
+        let slope = pp * sx * sx + qq * sy * sy + 2.0 * pq * sx * sy;
+        1.0 / (slope.max(0.0) + smoothness * bend * bend + shift)
+    })
+}
+
+/// The sum of `JᵀJ` over the pictures + λ∇⁴ + μ, and room for its parts.
 pub(super) struct Normal<'a> {
-    tangent: &'a Tangent,
+    tangents: &'a [Tangent],
     /// λ and μ.
     weights: [f64; 2],
     /// The change of brightness by the derivatives by p and by q; the Laplacian; the product.
@@ -79,10 +93,10 @@ pub(super) struct Normal<'a> {
 }
 
 impl<'a> Normal<'a> {
-    pub(super) fn of(tangent: &'a Tangent, weights: [f64; 2]) -> Self {
-        let (width, height) = (tangent.by_p.width(), tangent.by_p.height());
+    pub(super) fn of(tangents: &'a [Tangent], weights: [f64; 2], like: &Grid<f64>) -> Self {
+        let (width, height) = (like.width(), like.height());
         Self {
-            tangent,
+            tangents,
             weights,
             parts: [(); 4].map(|()| Grid::filled(width, height, 0.0)),
             rows: [(); 2].map(|()| vec![0.0; width]),
@@ -92,7 +106,7 @@ impl<'a> Normal<'a> {
     /// Its product with a change of heights.
     pub(super) fn times(&mut self, change: &Grid<f64>) -> &Grid<f64> {
         let Self {
-            tangent,
+            tangents,
             weights,
             parts,
             rows,
@@ -102,12 +116,18 @@ impl<'a> Normal<'a> {
             along_row(change, row, p);
             across_row(change, row, q);
             laplacian_row(change, row, bent.row_mut(row));
-            let by = tangent.by_p.row(row).iter().zip(tangent.by_q.row(row));
-            let slopes = p.iter().zip(q.iter());
-            let of = of_p.row_mut(row).iter_mut().zip(of_q.row_mut(row));
-            for ((of_p, of_q), ((by_p, by_q), (p, q))) in of.zip(by.zip(slopes)) {
-                let bright = by_p * p + by_q * q;
-                (*of_p, *of_q) = (-by_p * bright, -by_q * bright);
+            let (of_p, of_q) = (of_p.row_mut(row), of_q.row_mut(row));
+            of_p.fill(0.0);
+            of_q.fill(0.0);
+            for tangent in *tangents {
+                let by = tangent.by_p.row(row).iter().zip(tangent.by_q.row(row));
+                let slopes = p.iter().zip(q.iter());
+                let of = of_p.iter_mut().zip(of_q.iter_mut());
+                for ((of_p, of_q), ((by_p, by_q), (p, q))) in of.zip(by.zip(slopes)) {
+                    let bright = by_p * p + by_q * q;
+                    *of_p -= by_p * bright;
+                    *of_q -= by_q * bright;
+                }
             }
         }
         for row in 0..change.height() {

@@ -6,15 +6,18 @@
 //! lowers the sum. Coarse tiles come first, and λ begins high and falls to what was asked for:
 //! broad forms are found first, which keeps steep weaves out of wrong valleys and is cheap. The
 //! albedo is fitted between steps. A tile is done when a step hardly lowers the sum any more.
+//!
+//! Pictures of one surface under several lights are summed over, and each point has an albedo of
+//! its own: the one that fits it best, drawn towards that of all by [`EVEN`].
 
 use super::coarse::{resampled, sizes};
 use super::error::ShadingError;
 use super::reflectance::{
-    Lambert, across, across_row, along, along_row, laplacian, laplacian_row, residual,
+    Lambert, across, across_row, along, along_row, laplacian, laplacian_row, residual, residual_of,
 };
 use super::shape::{Found, ShadingOptions};
-use super::tangent::{Normal, Tangent, add, dot, product, squares};
-use super::{Light, linear};
+use super::tangent::{Normal, Tangent, add, dot, down, mean_problem, product, squares};
+use super::{View, linear};
 use selvedge_foundation::numerics::{Complex, Grid, PlaneTransform};
 use selvedge_foundation::progress::Progress;
 
@@ -31,16 +34,25 @@ const MIN_GAIN: f64 = 0.03;
 const TIKHONOV: f64 = 1e-7;
 /// Damping of a step, at first, and its limits.
 const DAMPING: [f64; 3] = [1e-7, 1e-3, 1e3];
+/// How many readings of its own the even albedo counts for at a point of several pictures.
+const EVEN: f64 = 0.3;
 /// Rounds of conjugate gradients, and the share of the first residual (squared) that ends them.
 const N_INNER: usize = 20;
 const INNER_END: f64 = 0.01;
 /// A step is halved so often at most.
 const N_HALVINGS: usize = 10;
 
-/// One surface that is being fitted.
-struct Fit<'a> {
-    brightness: &'a Grid<f64>,
+/// A picture of the surface.
+struct Seen {
+    brightness: Grid<f64>,
+    /// The same over each point's share of the albedo.
+    target: Grid<f64>,
     matt: Lambert,
+}
+
+/// One surface that is being fitted.
+struct Fit {
+    seen: Vec<Seen>,
     transform: PlaneTransform,
     albedo: f64,
     smoothness: f64,
@@ -85,18 +97,17 @@ impl Falling {
 }
 
 pub(super) fn solve(
-    brightness: &Grid<f64>,
-    light: Light,
+    views: &[View<'_>],
     options: &ShadingOptions,
     progress: &mut Progress<'_>,
 ) -> Result<Found, ShadingError> {
+    let &(brightness, light) = views.first().ok_or(ShadingError::Empty)?;
     let sizes = sizes(brightness.width(), brightness.height());
     let n_points = |[width, height]: [usize; 2]| (width * height) as f64;
     let whole: f64 = sizes.iter().copied().map(n_points).sum();
     let albedo = options.albedo_for(brightness, light);
     let flat = Grid::filled(brightness.width(), brightness.height(), 0.0);
-    let matt = Lambert::under(light);
-    let first = residual(brightness, albedo, &flat, matt);
+    let first = residual_of(views, albedo, &flat);
     let mut found = Found {
         height_px: flat,
         albedo,
@@ -105,15 +116,16 @@ pub(super) fn solve(
     };
     let (mut is_first, mut done, mut damping) = (true, 0.0, DAMPING[1]);
     for size in sizes {
-        let e = resampled(brightness, size);
+        let coarse: Vec<Grid<f64>> = views.iter().map(|(e, _)| resampled(e, size)).collect();
         let z = if is_first {
-            linear::heights(&e, light, options)
+            let lights = views.iter().map(|view| view.1);
+            let coarse: Vec<View<'_>> = coarse.iter().zip(lights).collect();
+            linear::heights(&coarse, options)
         } else {
             finer(&found.height_px, size)
         };
         let mut fit = Fit {
-            brightness: &e,
-            matt,
+            seen: coarse.into_iter().zip(views).map(Seen::of).collect(),
             transform: PlaneTransform::new(size[0], size[1]),
             albedo: found.albedo,
             smoothness: 0.0,
@@ -147,7 +159,17 @@ fn finer(coarse: &Grid<f64>, size: [usize; 2]) -> Grid<f64> {
     resampled(coarse, size).map(|z| z * factor)
 }
 
-impl Fit<'_> {
+impl Seen {
+    fn of((brightness, (_, light)): (Grid<f64>, &View<'_>)) -> Self {
+        Self {
+            target: brightness.clone(),
+            brightness,
+            matt: Lambert::under(*light),
+        }
+    }
+}
+
+impl Fit {
     /// Steps until they hardly help; hands back the residual after each. `part`: where in the
     /// whole work it begins and what share it is.
     fn run(
@@ -168,7 +190,7 @@ impl Fit<'_> {
             }
             let before = self.cost(&self.z);
             let after = self.step(before, progress, share)?;
-            residuals.push(residual(self.brightness, self.albedo, &self.z, self.matt));
+            residuals.push(self.residual());
             let is_settled = after >= before * (1.0 - MIN_GAIN);
             if done > falling.n && is_settled {
                 break;
@@ -177,32 +199,60 @@ impl Fit<'_> {
         Ok(residuals)
     }
 
-    /// The albedo that fits the surface as it is best; as before if all of it is dark.
+    /// The mean of |E/a − R|.
+    fn residual(&self) -> f64 {
+        let (p, q) = (along(&self.z), across(&self.z));
+        let of = |seen: &Seen| residual(&seen.target, self.albedo, [&p, &q], seen.matt);
+        self.seen.iter().map(of).sum::<f64>() / self.seen.len() as f64
+    }
+
+    /// The albedo that fits the surface as it is best; as before if all of it is dark. With several
+    /// pictures, that of each point then.
     fn fit_albedo(&mut self) {
         let (p, q) = (along(&self.z), across(&self.z));
-        let slopes = p.values().iter().zip(q.values());
-        let pairs = self.brightness.values().iter().zip(slopes);
-        let (er, rr) = pairs.fold((0.0, 0.0), |(er, rr), (e, (p, q))| {
-            let bright = self.matt.of(*p, *q).max(0.0);
-            (er + e * bright, rr + bright * bright)
-        });
-        if er > 0.0 && rr > 0.0 {
-            self.albedo = er / rr;
+        let slopes = || p.values().iter().zip(q.values());
+        let mut sums = (0.0, 0.0);
+        for seen in &self.seen {
+            let pairs = seen.target.values().iter().zip(slopes());
+            sums = pairs.fold(sums, |(er, rr), (e, (p, q))| {
+                let bright = seen.matt.of(*p, *q).max(0.0);
+                (er + e * bright, rr + bright * bright)
+            });
+        }
+        if sums.0 > 0.0 && sums.1 > 0.0 {
+            self.albedo = sums.0 / sums.1;
+        }
+        if self.seen.len() < 2 {
+            return;
+        }
+        for (i, (p, q)) in slopes().enumerate() {
+            let (er, rr) = self.seen.iter().fold((EVEN, EVEN), |(er, rr), seen| {
+                let bright = seen.matt.of(*p, *q).max(0.0);
+                let e = seen.brightness.values()[i] / self.albedo;
+                (er + e * bright, rr + bright * bright)
+            });
+            for seen in &mut self.seen {
+                seen.target.values_mut()[i] = seen.brightness.values()[i] * rr / er;
+            }
         }
     }
 
     /// What is made least.
     fn cost(&self, z: &Grid<f64>) -> f64 {
-        let [mut p, mut q, mut bent] = [(); 3].map(|()| vec![0.0; z.width()]);
+        let [mut p, mut q, mut bent, mut off] = [(); 4].map(|()| vec![0.0; z.width()]);
         let (mut misfit, mut curved) = (0.0, 0.0);
         for row in 0..z.height() {
             along_row(z, row, &mut p);
             across_row(z, row, &mut q);
             laplacian_row(z, row, &mut bent);
-            for (e, (p, q)) in self.brightness.row(row).iter().zip(p.iter_mut().zip(&q)) {
-                *p = e / self.albedo - self.matt.of(*p, *q).max(0.0);
+            for seen in &self.seen {
+                let slopes = p.iter().zip(&q);
+                let pairs = seen.target.row(row).iter().zip(slopes);
+                for (off, (e, (p, q))) in off.iter_mut().zip(pairs) {
+                    *off = e / self.albedo - seen.matt.of(*p, *q).max(0.0);
+                }
+                misfit += product(&off, &off);
             }
-            misfit += product(&p, &p);
             curved += product(&bent, &bent);
         }
         misfit + self.smoothness * curved + TIKHONOV * squares(z)
@@ -216,12 +266,13 @@ impl Fit<'_> {
         progress: &mut Progress<'_>,
         share: f64,
     ) -> Result<f64, ShadingError> {
-        let tangent = Tangent::of(self.brightness, self.albedo, (&self.z, self.matt));
-        let mut down = tangent.back(&tangent.missing);
+        let about = |seen: &Seen| Tangent::of(&seen.target, self.albedo, (&self.z, seen.matt));
+        let tangents: Vec<Tangent> = self.seen.iter().map(about).collect();
+        let mut down = down(&tangents, [self.z.width(), self.z.height()]);
         let bent = laplacian(&laplacian(&self.z));
         add(&mut down, -self.smoothness, &bent);
         add(&mut down, -TIKHONOV, &self.z);
-        let way = self.solved(&tangent, down, progress, share)?;
+        let way = self.solved(&tangents, down, progress, share)?;
         let mut length = 1.0;
         for _ in 0..N_HALVINGS {
             let mut z = self.z.clone();
@@ -243,14 +294,14 @@ impl Fit<'_> {
     /// `(JᵀJ + λ∇⁴ + μ) x = right` by conjugate gradients.
     fn solved(
         &mut self,
-        tangent: &Tangent,
+        tangents: &[Tangent],
         mut right: Grid<f64>,
         progress: &mut Progress<'_>,
         share: f64,
     ) -> Result<Grid<f64>, ShadingError> {
         let shift = TIKHONOV + self.damping;
-        let inverse = tangent.mean_problem(self.smoothness, shift);
-        let mut normal = Normal::of(tangent, [self.smoothness, shift]);
+        let inverse = mean_problem(tangents, self.smoothness, shift);
+        let mut normal = Normal::of(tangents, [self.smoothness, shift], &right);
         let (width, height) = (right.width(), right.height());
         let [mut x, mut y] = [(); 2].map(|()| Grid::filled(width, height, 0.0));
         let mut waves = inverse.map(|_| Complex::default());

@@ -220,6 +220,8 @@ pub(crate) enum Purpose {
     ImportFiles,
     /// Open a picture of cloth in this pane.
     OpenPicture(Pane),
+    /// Add a picture of the cloth turned to the one that is open.
+    AddTurned,
     /// Hang the cloth of a scene of its own.
     OpenDrape,
     /// Open a path of hands on the hanging cloth.

@@ -75,6 +75,7 @@ fn is_risky(command: &Command) -> bool {
             purpose,
             Purpose::ImportFiles
                 | Purpose::OpenPicture(_)
+                | Purpose::AddTurned
                 | Purpose::OpenDrape
                 | Purpose::OpenDesign
         ),

@@ -49,6 +49,9 @@ pub(crate) enum Known {
 pub(crate) struct Draft {
     /// The picture.
     pub source: Option<SourceFile>,
+    /// Further pictures of the cloth, turned.
+    #[serde(default)]
+    pub turned: Vec<SourceFile>,
     /// The part of it.
     pub part: Part,
     /// Whether uneven light is divided out where it matters.
@@ -88,6 +91,7 @@ impl Default for Draft {
     fn default() -> Self {
         Self {
             source: None,
+            turned: Vec::new(),
             part: Part::Whole,
             is_evened: true,
             scale: String::new(),
@@ -220,6 +224,11 @@ impl Draft {
         self.has_same_file(other) && (self.part, self.is_evened) == (other.part, other.is_evened)
     }
 
+    /// Whether the same further pictures are laid over the same picture.
+    pub(crate) fn has_same_turned(&self, other: &Self) -> bool {
+        self.has_same_part(other) && self.turned == other.turned
+    }
+
     /// Whether the tiles are the same.
     pub(crate) fn has_same_tile(&self, other: &Self) -> bool {
         self.has_same_part(other) && (self.lambda, self.lattice) == (other.lambda, other.lattice)
@@ -233,6 +242,7 @@ impl Draft {
     pub(crate) fn has_same_shape(&self, other: &Self) -> bool {
         let light = |draft: &Self| (!draft.is_light_estimated).then_some(draft.light);
         self.has_same_tile(other)
+            && self.turned == other.turned
             && (!self.is_cell() || self.picture_scale() == other.picture_scale())
             && self.is_light_estimated == other.is_light_estimated
             && light(self) == light(other)

@@ -9,7 +9,7 @@ use crate::tools::picture::images::Image;
 use selvedge_foundation::numerics::Grid;
 use selvedge_textile::picture::{
     Autocorrelation, Directions, Found as Tiled, Lattice, Maxima, Picture, Relief,
-    SignificantMaxima,
+    SignificantMaxima, Turned, TurnedPicture,
 };
 use selvedge_textile::surface::Direction;
 
@@ -84,6 +84,9 @@ pub(crate) struct Made {
     pub profiles: Vec<(Direction, Vec<f64>, f64)>,
 }
 
+/// A further picture laid over the first and as a textile names it; why it could not be.
+pub(crate) type Laid = Result<(Turned, TurnedPicture), String>;
+
 /// What was made of a draft, as far as it went.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Found {
@@ -95,6 +98,8 @@ pub(crate) struct Found {
     pub correlated: Option<Arc<Correlated>>,
     /// See [`Cloth`].
     pub cloth: Option<Arc<Cloth>>,
+    /// Further pictures, one for each that was chosen: laid over the first, or why not.
+    pub(crate) turned: Option<Arc<Vec<Laid>>>,
     /// Heights in pixels, and what they were found on.
     pub shaped: Option<Arc<Relief>>,
     /// See [`Made`].

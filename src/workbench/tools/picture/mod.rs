@@ -13,6 +13,7 @@ pub(crate) mod found;
 pub(crate) mod images;
 pub(crate) mod state;
 pub(crate) mod textures;
+pub(crate) mod turned;
 pub(crate) mod view;
 pub(crate) mod work;
 
@@ -51,6 +52,9 @@ impl Tool for Picture {
                 self.open(path.clone());
                 let reveal = ShowCommand::Reveal(Pane::Picture);
                 bench.commands.push(reveal.into());
+            }
+            Command::File(FileCommand::Use(Purpose::AddTurned, path)) => {
+                self.add_turned(path.clone());
             }
             Command::Library(LibraryCommand::Keep(keep)) => self.note_kept(keep),
             _ => {}

@@ -15,6 +15,9 @@ use crate::tools::picture::draft::{Draft, Part};
 use crate::tools::picture::found::Found;
 use crate::tools::picture::textures::Textures;
 
+/// Further pictures at most.
+pub(crate) const MAX_TURNED: usize = 3;
+
 /// A picture, what is wanted of it and what was made.
 #[derive(Default)]
 pub(crate) struct Picture {
@@ -76,6 +79,7 @@ impl Picture {
         let draft = Draft {
             source: Some(path.into()),
             part: Part::Whole,
+            turned: Vec::new(),
             ruler: None,
             lambda: None,
             lattice: None,
@@ -83,6 +87,15 @@ impl Picture {
             ..self.draft.clone()
         };
         self.take_draft(draft);
+    }
+
+    /// Takes a further picture of the cloth, turned; no more than can be used.
+    pub(super) fn add_turned(&mut self, path: PathBuf) {
+        let mut draft = self.draft.clone();
+        if draft.source.is_some() && draft.turned.len() < MAX_TURNED {
+            draft.turned.push(path.into());
+            self.take_draft(draft);
+        }
     }
 
     /// Whether more was chosen and typed than which picture it is, and not kept since.

@@ -10,14 +10,15 @@ use crate::kit::widgets::relief3d::Relief3d;
 use crate::tools::picture::draft::{Draft, Part};
 use crate::tools::picture::found::{Cloth, Correlated, Found, Loaded, Made, Step};
 use crate::tools::picture::images;
+use crate::tools::picture::turned::{even, laid, turned};
 use selvedge_foundation::files::sha256_hex;
 use selvedge_foundation::numerics::{Grid, extent};
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_textile::picture::brightness::Brightness;
 use selvedge_textile::picture::shading::{ShadingError, ShadingOptions};
 use selvedge_textile::picture::{
-    Autocorrelation, Basis, DirectionOptions, Directions, EvenLight, Found as Tiled, Lattice,
-    Maxima, Picture, PictureError, Relief, ReliefOf, SignificantMaxima, even_light,
+    Autocorrelation, Basis, DirectionOptions, Directions, Found as Tiled, Lattice, Maxima, Picture,
+    PictureError, Relief, ReliefOf, SignificantMaxima, Turned, TurnedPicture, even_light,
 };
 use selvedge_textile::surface::Direction;
 use selvedge_textile::{
@@ -127,6 +128,16 @@ fn stages(
         found.is_partial = true;
         return Ok(());
     }
+    progress.step(0.6, "laying pictures over each other")?;
+    let turned = match known(
+        prior,
+        |of| of.has_same_turned(&inputs),
+        |found| &found.turned,
+    ) {
+        Some(turned) => turned,
+        None => Arc::new(turned(&inputs, &correlated, progress)?),
+    };
+    found.turned = Some(turned);
     let of = (&*loaded, &*correlated, &*cloth);
     felt(found, of, prior, progress)
 }
@@ -147,7 +158,7 @@ fn felt(
         shaped
     } else {
         let ground = (&correlated.luminance, tiled, px_per_mm);
-        Arc::new(shaped(&inputs, ground, progress)?)
+        Arc::new(shaped(&inputs, ground, &laid(found).0, progress)?)
     };
     found.shaped = Some(Arc::clone(&shaped));
     progress.step(0.9, "drawing the tester over it")?;
@@ -157,7 +168,8 @@ fn felt(
             made
         } else {
             let of = (tiled, Relief::clone(&shaped), px_per_mm.unwrap_or_default());
-            let make = |p: &mut Progress<'_>| made(&inputs, loaded, of, p);
+            let seen = (loaded, correlated.picture.colour.as_ref(), laid(found));
+            let make = |p: &mut Progress<'_>| made(&inputs, seen, of, p);
             Arc::new(progress.within([0.9, 1.0], make)?)
         });
     }
@@ -187,12 +199,7 @@ fn correlated(inputs: &Draft, loaded: &Loaded) -> Result<Correlated, End> {
         Part::Corners(corners) => loaded.picture.rectified(corners),
     };
     let picture = part.map_err(|error| End::Failed(Step::Picture, error.to_string()))?;
-    let how = if inputs.is_evened {
-        EvenLight::Auto
-    } else {
-        EvenLight::Off
-    };
-    let (luminance, was_evened) = even_light(picture.luminance.clone(), how);
+    let (luminance, was_evened) = even_light(picture.luminance.clone(), even(inputs));
     let looked = Lattice::worth_looking(&luminance);
     let read = looked.map_err(|reason| reason.to_string()).map(|()| {
         let rho = Autocorrelation::of(&luminance, n_threads());
@@ -300,6 +307,7 @@ fn straightened(
 fn shaped(
     inputs: &Draft,
     (luminance, tiled, px_per_mm): (&Grid<f64>, Option<&Tiled>, Option<f64>),
+    turned: &[Turned],
     progress: &mut Progress<'_>,
 ) -> Result<Relief, End> {
     let failed = |error: ShadingError| match error {
@@ -307,7 +315,17 @@ fn shaped(
         error => End::Failed(Step::Light, error.to_string()),
     };
     let ground = (inputs.relief_of, luminance);
-    let brightness = Brightness::ground(ground, tiled, px_per_mm, n_threads());
+    let brightness = match (turned, inputs.relief_of) {
+        ([], _) => Brightness::ground(ground, tiled, px_per_mm, n_threads()),
+        (_, ReliefOf::Cell) => {
+            let line = "further pictures do not go with the mean cell; choose “as scanned”";
+            return Err(End::Failed(Step::Light, line.to_owned()));
+        }
+        _ => {
+            let failed = |error: PictureError| End::Failed(Step::Light, error.to_string());
+            Some(Brightness::of_turned(luminance, turned, tiled).map_err(failed)?)
+        }
+    };
     let no_cell = "there is no lattice and so no mean cell; choose “as scanned”";
     let brightness = brightness.ok_or_else(|| End::Failed(Step::Light, no_cell.to_owned()))?;
     let light = (!inputs.is_light_estimated).then_some(inputs.light);
@@ -318,9 +336,16 @@ fn shaped(
     Relief::of(brightness, light, &options, progress).map_err(failed)
 }
 
+/// The picture, its shares of red and green, and further ones.
+type Photographed<'a> = (
+    &'a Loaded,
+    Option<&'a Grid<[f32; 2]>>,
+    (Vec<Turned>, Vec<TurnedPicture>),
+);
+
 fn made(
     inputs: &Draft,
-    loaded: &Loaded,
+    (loaded, shares, (turned, kept)): Photographed<'_>,
     (tiled, mut relief, px_per_mm): (Option<&Tiled>, Relief, f64),
     progress: &mut Progress<'_>,
 ) -> Result<Made, End> {
@@ -336,6 +361,12 @@ fn made(
         px_scale: inputs.picture_scale(),
         scale: inputs.height_scale().unwrap_or_default(),
         picture: file.map(|name| [name, loaded.sha256.clone()]),
+        turned: kept,
+        colours: Some(
+            relief
+                .brightness
+                .colours((shares, &turned), (inputs.relief_of, tiled)),
+        ),
         size_px: Some(relief.brightness.size_px),
         extent_mm: (inputs.relief_of == ReliefOf::Synthesized).then_some(PictureTextile::EXTENT_MM),
         light_is_estimated: relief.estimate.is_some(),

@@ -16,7 +16,7 @@ use crate::kit::widgets::text::{button, paragraph, quiet, toggle, toggles};
 use crate::tools::picture::draft::{Draft, Part, ScaleUnit};
 use crate::tools::picture::found::{Found, Step};
 use crate::tools::picture::state::Picture;
-use crate::tools::picture::view::{hemisphere, repeats};
+use crate::tools::picture::view::{hemisphere, repeats, turned};
 #[cfg(feature = "friction")]
 use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity;
@@ -69,6 +69,7 @@ fn show_picture(
     });
     show_failure(ui, found, Step::Picture);
     let draft = &mut picture.draft;
+    turned::show(ui, draft, found, commands);
     show_scale(ui, draft);
     let size = found
         .and_then(|found| found.loaded.as_deref())

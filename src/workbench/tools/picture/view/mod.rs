@@ -10,6 +10,7 @@ pub(crate) mod hemisphere;
 pub(crate) mod keep;
 pub(crate) mod plots;
 pub(crate) mod repeats;
+pub(crate) mod turned;
 
 use eframe::egui::{Ui, vec2};
 
