@@ -62,9 +62,8 @@ pub(super) fn down(tangents: &[Tangent], [width, height]: [usize; 2]) -> Grid<f6
 /// One over the transform of the sum of `JᵀJ` over the pictures + λ∇⁴ + μ with J's weights in the
 /// mean.
 pub(super) fn mean_problem(tangents: &[Tangent], smoothness: f64, shift: f64) -> Grid<f64> {
-    let [width, height] = (tangents.first()).map_or([0; 2], |one| {
-        [one.by_p.width(), one.by_p.height()]
-    });
+    let [width, height] =
+        (tangents.first()).map_or([0; 2], |one| [one.by_p.width(), one.by_p.height()]);
     let n = (width * height).max(1) as f64;
     let sum = |of: fn(&Tangent) -> f64| tangents.iter().map(of).sum::<f64>() / n;
     let [pp, qq] = [sum(|one| squares(&one.by_p)), sum(|one| squares(&one.by_q))];
