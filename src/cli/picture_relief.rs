@@ -185,7 +185,7 @@ impl ReliefArgs {
         let is_first_alone = self.textile.is_some() && self.shading.is_none();
         ShadingOptions {
             method: self.shading.unwrap_or_default(),
-            iterations: self.iterations.or(is_first_alone.then_some(1)),
+            iterations: self.iterations.or_else(|| is_first_alone.then_some(1)),
             ..ShadingOptions::default()
         }
     }
