@@ -124,11 +124,11 @@ impl Workbench {
             let files = std::mem::take(&mut input.raw.dropped_files);
             files.iter().map(|file| file.path().to_owned()).collect()
         });
-        self.take_dropped(paths);
+        self.take_paths(paths);
     }
 
     /// Takes what was dropped together: pictures are of one cloth, turned.
-    fn take_dropped(&mut self, paths: Vec<PathBuf>) {
+    fn take_paths(&mut self, paths: Vec<PathBuf>) {
         let mut is_open = false;
         for path in paths {
             let is_picture = purpose_of(&path) == Some(Purpose::OpenPicture(Pane::Picture));
@@ -260,7 +260,7 @@ mod tests {
         for path in &pictures {
             fs::write(path, "no picture").unwrap();
         }
-        window.workbench.take_dropped(pictures.to_vec());
+        window.workbench.take_paths(pictures.to_vec());
         window.pass(2);
         let picture = window.workbench.tools.get::<Picture>().unwrap();
         let name = |file: &SourceFile| file.name();
