@@ -157,7 +157,10 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
         n_threads,
     };
     let work = |progress: &mut Progress<'_>| -> Result<_, CliError> {
-        let colour = chosen.colour.clone();
+        let colour = chosen
+            .colour
+            .clone()
+            .filter(|_| args.relief.textile.is_some());
         let analysis = Analysis::of(chosen, &options, progress)?;
         let px_per_mm = args.px_per_mm(&analysis)?;
         let of = (&origin, args.scale().zip(px_per_mm));

@@ -112,7 +112,7 @@ const MAX_TURNED: usize = 3;
 pub(super) struct Seen {
     pub(super) analysis: Analysis,
     /// Shares of red and green in the picture.
-    pub(super) colour: Option<Grid<[f32; 2]>>,
+    pub(super) colour: Option<Grid<[u16; 2]>>,
     /// Further pictures, laid over it, and as its textile names them.
     pub(super) turned: Vec<(Turned, TurnedPicture)>,
 }

@@ -13,7 +13,7 @@ impl Brightness {
     /// without: point by point, or by their mean where cells were averaged or laid straight.
     pub fn colours(
         &self,
-        (shares, turned): (Option<&Grid<[f32; 2]>>, &[Turned]),
+        (shares, turned): (Option<&Grid<[u16; 2]>>, &[Turned]),
         (relief_of, found): (ReliefOf, Option<&Found>),
     ) -> [Grid<f64>; 3] {
         let region = Turned::common(turned).ok().filter(|_| !turned.is_empty());
@@ -21,7 +21,8 @@ impl Brightness {
         let shares = part.as_ref().or(shares);
         let is_laid = turned.is_empty() && found.is_some_and(|found| found.unwarped.is_some());
         let is_straight = relief_of != ReliefOf::Cell && !is_laid;
-        let channel = |i: usize| shares.map(|all| all.map(|share| f64::from(share[i])));
+        let channel =
+            |i: usize| shares.map(|all| all.map(|share| f64::from(share[i]) / f64::from(u16::MAX)));
         let laid = |grid: Option<Grid<f64>>| {
             let grid = grid.unwrap_or_else(|| Grid::filled(1, 1, 1.0 / 3.0));
             let (mean, _) = mean_and_variance(&grid);

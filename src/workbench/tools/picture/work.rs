@@ -339,7 +339,7 @@ fn shaped(
 /// The picture, its shares of red and green, and further ones.
 type Photographed<'a> = (
     &'a Loaded,
-    Option<&'a Grid<[f32; 2]>>,
+    Option<&'a Grid<[u16; 2]>>,
     (Vec<Turned>, Vec<TurnedPicture>),
 );
 
