@@ -137,12 +137,11 @@ fn drawn(
     let profiles = keys.map().strokes(&kept, path)?;
     let mut files = vec![BuiltFile::new(&keys.file, bytes)];
     files.extend(profile_files(&profiles)?);
-    let image = match image {
-        Some(image) => image,
-        None => {
-            let relief = shaded(&kept).map_err(no_surface)?;
-            relief.to_small_png(Path::new(PICTURE))?
-        }
+    let image = if let Some(image) = image {
+        image
+    } else {
+        let relief = shaded(&kept).map_err(no_surface)?;
+        relief.to_small_png(Path::new(PICTURE))?
     };
     files.push(BuiltFile::new(PICTURE, image));
     let hash = Source::Picture(Box::new(keys.clone())).recipe_hash(path)?;

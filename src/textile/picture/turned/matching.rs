@@ -169,7 +169,10 @@ impl<'a> Level<'a> {
         let heights =
             pairs.map(|(c, (cos, sin))| c.max((turn * c + cos.hypot(*sin)) / deviation) / chance);
         let heights = Grid::from_rows(self.n, heights.collect());
-        heights.map_or(Matched::nothing(map), |heights| self.peak(&heights, map))
+        match heights {
+            Some(heights) => self.peak(&heights, map),
+            None => Matched::nothing(map),
+        }
     }
 
     /// The highest peak of a match, and the next one.
