@@ -330,11 +330,12 @@ impl ReliefArgs {
             None => format!("{}, unscaled", with_unit(felt.relief.relief_px(), 2, "px")),
         };
         let (out, words) = (out.display(), &felt.relief.shape.reliability);
-        let laid: String = felt
+        let laid: Vec<String> = felt
             .turned
             .iter()
             .map(|one| format!("{out}: {one}\n"))
             .collect();
+        let laid = laid.concat();
         let first = format!("{out}: heights by {by} under light of slant {slant}°, tilt {tilt}°");
         let mut described =
             format!("{laid}{first}{estimated}\n{out}: {height} from lowest to highest. {words}\n");

@@ -9,8 +9,8 @@ use super::turned::Turned;
 use selvedge_foundation::numerics::Grid;
 
 impl Brightness {
-    /// Red, green and blue of what was cut, 0…1, by the shares of red and green in the picture, grey
-    /// without: point by point, or by their mean where cells were averaged or laid straight.
+    /// Red, green and blue of what was cut, 0…1, by the shares of red and green in the picture,
+    /// grey without: point by point, or by their mean where cells were averaged or laid straight.
     pub fn colours(
         &self,
         (shares, turned): (Option<&Grid<[u16; 2]>>, &[Turned]),

@@ -78,6 +78,7 @@ impl AskWords {
         let scene = ["/path/to/NAME.scene.toml", "untitled.scene.toml", ".toml"];
         let path = ["/path/to/NAME.csv", "recording.csv", ".csv"];
         let design = ["/path/to/DESIGN.toml", "design.toml", ".toml"];
+        let picture = ["/path/to/NAME.png", "cloth.png", ""];
         let export = |title, file| Self::new([title, "Export"], WHERE, file);
         match purpose {
             Purpose::OpenScene => Self::new(["Open scene", "Open"], SCENE, scene),
@@ -92,17 +93,12 @@ impl AskWords {
                 let file = ["/path/to/NAME.txt", "strokes.txt", ""];
                 Self::new(["Add a file of measurements", "Add"], FILE, file)
             }
-            Purpose::AddTurned => {
-                let file = ["/path/to/NAME.png", "cloth-90.png", ""];
-                Self::new(["Add a turned picture", "Add"], FILE, file)
+            Purpose::AddTurned => Self::new(["Add a turned picture", "Add"], FILE, picture),
+            Purpose::OpenPicture(Pane::Picture) => {
+                Self::new(["Cloth from a picture", "Open"], FILE, picture)
             }
-            Purpose::OpenPicture(pane) => {
-                let file = ["/path/to/NAME.png", "cloth.png", ""];
-                let title = match pane {
-                    Pane::Picture => "Cloth from a picture",
-                    _ => "Friction from a picture",
-                };
-                Self::new([title, "Open"], FILE, file)
+            Purpose::OpenPicture(_) => {
+                Self::new(["Friction from a picture", "Open"], FILE, picture)
             }
             Purpose::OpenDrape | Purpose::OpenHands | Purpose::SaveHands => Self::of_drape(purpose),
             Purpose::AddLibrary => {

@@ -166,7 +166,7 @@ fn a_turned_picture_says_its_turn_and_how_well_it_matches_and_can_be_left_out() 
     let folder = Folder::new("picture-turned");
     let values = fleece(3);
     let mut harness = with_picture(&folder, |path| {
-        fs::write(path, picture(&values, 0)).unwrap()
+        fs::write(path, picture(&values, 0)).unwrap();
     });
     for (name, bytes) in [
         ("b.png", picture(&values, 1)),

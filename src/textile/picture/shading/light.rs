@@ -59,6 +59,9 @@ impl Light {
     }
 }
 
+/// Brightness 0…1, and the light that it was taken under; row 0 is the lowest y.
+pub(crate) type View<'a> = (&'a Grid<f64>, Light);
+
 /// A light found on a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LightEstimate {

@@ -36,6 +36,7 @@ mod variational;
 
 pub use error::ShadingError;
 pub(crate) use evidence::Evidence;
+pub(crate) use light::View;
 pub use light::{Light, LightEstimate};
 pub use reflectance::picture_of;
 pub use shape::{Edges, Method, ShadingOptions, Shape};
@@ -48,10 +49,7 @@ use error::MAX_POINTS;
 use selvedge_foundation::numerics::{Grid, PlaneTransform};
 use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::factor_of_gain;
-use shape::{MAX_ITERATIONS, mean};
-
-/// Brightness 0…1, and the light that it was taken under; row 0 is the lowest y.
-pub(crate) type View<'a> = (&'a Grid<f64>, Light);
+use shape::{MAX_ITERATIONS, about_mean, mean, mean_of};
 
 impl Shape {
     /// Heights from brightness 0…1 under a light; row 0 is the lowest y.
@@ -210,20 +208,4 @@ fn check(brightness: &Grid<f64>, options: &ShadingOptions) -> Result<(), Shading
         value: n as f64,
         range: "1 to 10000",
     })
-}
-
-/// What pictures show on the mean: what does not turn with the light.
-fn mean_of(views: &[View<'_>], first: &Grid<f64>) -> Grid<f64> {
-    let mut sum = first.map(|_| 0.0);
-    for (view, _) in views {
-        for (sum, e) in sum.values_mut().iter_mut().zip(view.values()) {
-            *sum += e / views.len() as f64;
-        }
-    }
-    sum
-}
-
-fn about_mean(grid: &Grid<f64>) -> Grid<f64> {
-    let mean = mean(grid);
-    grid.map(|value| value - mean)
 }

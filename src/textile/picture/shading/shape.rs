@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::light::Light;
+use super::light::{Light, View};
 use selvedge_foundation::named;
 use selvedge_foundation::numerics::Grid;
 
@@ -154,4 +154,21 @@ impl ShadingOptions {
 /// The mean of all values.
 pub(super) fn mean(grid: &Grid<f64>) -> f64 {
     grid.values().iter().sum::<f64>() / grid.values().len().max(1) as f64
+}
+
+/// What pictures show on the mean: what does not turn with the light.
+pub(super) fn mean_of(views: &[View<'_>], first: &Grid<f64>) -> Grid<f64> {
+    let mut sum = first.map(|_| 0.0);
+    for (view, _) in views {
+        for (sum, e) in sum.values_mut().iter_mut().zip(view.values()) {
+            *sum += e / views.len() as f64;
+        }
+    }
+    sum
+}
+
+/// Values about their mean.
+pub(super) fn about_mean(grid: &Grid<f64>) -> Grid<f64> {
+    let mean = mean(grid);
+    grid.map(|value| value - mean)
 }

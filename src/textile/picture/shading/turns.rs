@@ -9,8 +9,8 @@
 
 use std::f64::consts::PI;
 
-use super::shape::{ShadingOptions, mean};
-use super::{Light, View, about_mean, linear, mean_of};
+use super::shape::{ShadingOptions, about_mean, mean, mean_of};
+use super::{Light, View, linear};
 use selvedge_foundation::numerics::{Complex, Grid, PlaneTransform, extent, to_index};
 
 /// Tilts that are tried over half a turn, and sectors of waves: one a degree.

@@ -43,6 +43,10 @@ const PARTS: [f64; 3] = [1.0, 0.5, 0.25];
 const N_PIECES: usize = 6;
 const PIECE: usize = 64;
 const N_ROUNDS: usize = 3;
+/// Farther from where the whole puts it no piece is believed, px; times that the farthest ones are
+/// left out.
+const MOST_MOVED_PX: f64 = 6.0;
+const N_TRIMMINGS: usize = 4;
 const PIECE_CHANCE: f64 = 7.0;
 /// Pieces that a fit needs.
 const MIN_PIECES: usize = 6;
@@ -286,7 +290,7 @@ fn refined(pictures: [&Grid<f64>; 2], map: Similarity, n_threads: usize) -> (Sim
             |(), i, pair| {
                 let matched = Level::of(pictures, places[i], (PIECE, 1.0)).matched(map);
                 let moved = length(mix(matched.map.at(places[i]), 1.0, map.at(places[i]), -1.0));
-                let is_sure = matched.height > PIECE_CHANCE && moved < 0.25 * PIECE as f64;
+                let is_sure = matched.height > PIECE_CHANCE && moved < MOST_MOVED_PX;
                 pair[0] = is_sure.then(|| [places[i], matched.map.at(places[i])]);
             },
         );
@@ -295,11 +299,14 @@ fn refined(pictures: [&Grid<f64>; 2], map: Similarity, n_threads: usize) -> (Sim
             break;
         }
         let off = |map: &Similarity, [a, b]: &[Place; 2]| length(mix(map.at(*a), 1.0, *b, -1.0));
-        let near = Similarity::fitted(&pairs);
-        let mut all: Vec<f64> = pairs.iter().map(|pair| off(&near, pair)).collect();
-        let limit = 2.5 * median(&mut all).max(0.1);
-        pairs.retain(|pair| off(&near, pair) <= limit);
+        // A piece may lie a thread off: what lies farthest is left out, over and over.
         map = Similarity::fitted(&pairs);
+        for _ in 0..N_TRIMMINGS {
+            let mut all: Vec<f64> = pairs.iter().map(|pair| off(&map, pair)).collect();
+            let limit = 2.5 * median(&mut all).max(0.1);
+            pairs.retain(|pair| off(&map, pair) <= limit);
+            map = Similarity::fitted(&pairs);
+        }
         let squares = pairs.iter().map(|pair| off(&map, pair).powi(2));
         residual_px = (squares.sum::<f64>() / pairs.len().max(1) as f64).sqrt();
     }

@@ -190,7 +190,7 @@ fn judged(brightness: &Brightness, truth: &Grid<f64>) -> ([f64; 4], [f64; 4], us
     };
     let (ensemble, mut shape) = Progress::unheard(|p| {
         let all = Ensemble::of(brightness, &about, Lamp::Unknown, 2, p).unwrap();
-        let shape = all.shape(brightness, &about, p).unwrap();
+        let shape = all.shape(&about).unwrap();
         (all, shape)
     });
     let [mean_z, mean_t] = [&shape.height_px, truth].map(|grid| mean_and_variance(grid).0);
