@@ -117,7 +117,7 @@ mod tests {
                 "x_mm,height_um\n0,1\n",
                 "a.csv: 1 samples where one window takes 1000",
             ),
-            ("x_mm,height_um\n0,1\n1,1\n", "a.csv: the step is 1 mm"),
+            ("x_mm,height_um\n0,1\n1,1\n", "a.csv: the step is 1.0 mm"),
             ("x_mm,height\n0,1\n", "a.csv:1: unknown column"),
         ] {
             let error = Profile::read(text, path).unwrap_err().to_string();

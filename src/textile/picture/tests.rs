@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::*;
-use selvedge_foundation::numerics::{Grid, Random};
+use selvedge_foundation::numerics::{Grid, Random, to_whole};
 use selvedge_foundation::progress::{CancelFlag, Progress};
 
 const WIDTH: usize = 360;
@@ -446,7 +446,7 @@ fn work_that_is_cancelled_ends() {
 fn a_printed_pattern_is_told_by_its_colour() {
     let square = |x: f64, y: f64| ((x / 10.0).floor() + (y / 10.0).floor()).rem_euclid(2.0) < 0.5;
     let luminance = drawn(200, 200, |x, y| if square(x, y) { 0.6 } else { 0.4 });
-    let shares = |red: f32| [red, 0.33];
+    let shares = |red: f64| [red, 0.33].map(|share| to_whole::<u16>(65535.0 * share));
     let colours = (0..200 * 200_u32).map(|i| {
         let (x, y) = (f64::from(i % 200), f64::from(i / 200));
         shares(if square(x, y) { 0.5 } else { 0.33 })
