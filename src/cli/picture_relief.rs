@@ -58,7 +58,7 @@ pub(super) struct ReliefArgs {
     smd_um: Option<f64>,
     /// Folder of a textile to make of it; needs the scale, and the relief or the SMD
     #[arg(long, value_name = "DIR")]
-    textile: Option<PathBuf>,
+    pub(super) textile: Option<PathBuf>,
     /// What people call the textile (the picture's name)
     #[arg(long, default_value = "", requires = "textile")]
     name: String,
