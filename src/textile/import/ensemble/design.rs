@@ -40,9 +40,9 @@ pub enum Lamp {
 }
 
 impl Lamp {
-    /// Within so many degrees a lamp stands where people say, unless they say otherwise. Of 5° bands
-    /// are too narrow where a lamp is told wrong by 15°; 20° widen those of one that is told right
-    /// by 0.6 dB.
+    /// Within so many degrees a lamp stands where people say, unless they say otherwise. Of 5°
+    /// bands are too narrow where a lamp is told wrong by 15°; 20° widen those of one that is told
+    /// right by 0.6 dB.
     pub const WITHIN_DEG: f64 = 10.0;
 
     /// The light at a place of the unit square.
