@@ -131,6 +131,7 @@ const HOMES: &[(&str, &str)] = &[
     ("serialport", "src/device/"),
     ("sha2", "src/foundation/files/"),
     ("signal_hook", "src/foundation/signals.rs"),
+    ("libm", "src/statistics/distribution.rs"),
     ("statrs", "src/statistics/"),
     ("tiff", "src/foundation/files/"),
     ("toml", "src/foundation/files/"),

@@ -12,6 +12,7 @@ pub(crate) mod export;
 pub(crate) mod found;
 pub(crate) mod images;
 pub(crate) mod state;
+pub(crate) mod textile;
 pub(crate) mod textures;
 pub(crate) mod turned;
 pub(crate) mod view;

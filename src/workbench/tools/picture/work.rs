@@ -3,27 +3,22 @@
 
 use std::sync::Arc;
 
-use crate::bench::keep::NewTextile;
 use crate::bench::latest::Computed;
-use crate::bench::source_file::SourceFile;
-use crate::kit::widgets::relief3d::Relief3d;
 use crate::tools::picture::draft::{Draft, Part};
-use crate::tools::picture::found::{Cloth, Correlated, Found, Loaded, Made, Step};
+use crate::tools::picture::found::{Cloth, Correlated, Found, Loaded, Step};
 use crate::tools::picture::images;
+use crate::tools::picture::textile::made;
 use crate::tools::picture::turned::{even, laid, turned};
 use selvedge_foundation::files::sha256_hex;
-use selvedge_foundation::numerics::{Grid, extent};
+use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_textile::picture::brightness::Brightness;
 use selvedge_textile::picture::shading::{ShadingError, ShadingOptions};
 use selvedge_textile::picture::{
     Autocorrelation, Basis, DirectionOptions, Directions, Found as Tiled, Lattice, Maxima, Picture,
-    PictureError, Relief, ReliefOf, SignificantMaxima, Turned, TurnedPicture, even_light,
+    PictureError, Relief, ReliefOf, SignificantMaxima, Turned, even_light,
 };
-use selvedge_textile::surface::Direction;
-use selvedge_textile::{
-    Construction, Ensemble, Lamp, PictureTextile, TextileError, Uncertainty, n_threads, smd_um,
-};
+use selvedge_textile::{TextileError, n_threads};
 
 /// Why a run ended early.
 enum End {
@@ -170,7 +165,11 @@ fn felt(
             let of = (tiled, Relief::clone(&shaped), px_per_mm.unwrap_or_default());
             let seen = (loaded, correlated.picture.colour.as_ref(), laid(found));
             let make = |p: &mut Progress<'_>| made(&inputs, seen, of, p);
-            Arc::new(progress.within([0.9, 1.0], make)?)
+            let made = progress.within([0.9, 1.0], make);
+            Arc::new(made.map_err(|error| match error {
+                TextileError::Cancelled(cancelled) => End::Cancelled(cancelled),
+                error => End::Failed(Step::Felt, error.to_string()),
+            })?)
         });
     }
     progress.step(1.0, "done")?;
@@ -336,91 +335,10 @@ fn shaped(
     Relief::of(brightness, light, &options, progress).map_err(failed)
 }
 
-/// The picture, its shares of red and green, and further ones.
-type Photographed<'a> = (
-    &'a Loaded,
-    Option<&'a Grid<[u16; 2]>>,
-    (Vec<Turned>, Vec<TurnedPicture>),
-);
-
-fn made(
-    inputs: &Draft,
-    (loaded, shares, (turned, kept)): Photographed<'_>,
-    (tiled, mut relief, px_per_mm): (Option<&Tiled>, Relief, f64),
-    progress: &mut Progress<'_>,
-) -> Result<Made, End> {
-    let failed = |error: TextileError| match error {
-        TextileError::Cancelled(cancelled) => End::Cancelled(cancelled),
-        error => End::Failed(Step::Felt, error.to_string()),
-    };
-    let file = inputs.source.as_ref().map(SourceFile::name);
-    let mut about = PictureTextile {
-        name: inputs.final_name(),
-        construction: Construction::Other,
-        px_per_mm,
-        px_scale: inputs.picture_scale(),
-        scale: inputs.height_scale().unwrap_or_default(),
-        picture: file.map(|name| [name, loaded.sha256.clone()]),
-        turned: kept,
-        colours: Some(
-            relief
-                .brightness
-                .colours((shares, &turned), (inputs.relief_of, tiled)),
-        ),
-        size_px: Some(relief.brightness.size_px),
-        extent_mm: (inputs.relief_of == ReliefOf::Synthesized).then_some(PictureTextile::EXTENT_MM),
-        light_is_estimated: relief.estimate.is_some(),
-        representation: inputs.representation,
-        ..PictureTextile::default()
-    };
-    let own = (&mut relief, inputs.method.is_some());
-    let believed = Ensemble::believe(own, &mut about, lamp(inputs), n_threads(), progress);
-    let advice = believed.map_err(failed)?;
-    let (shape, brightness) = (&relief.shape, &relief.brightness);
-    let tile = tiled.map(|tiled| &tiled.tile);
-    let made = PictureTextile::files_of(shape, brightness, tile, &about).map_err(failed)?;
-    let strokes = Direction::ALL
-        .into_iter()
-        .zip(made.profiles.iter().flatten());
-    let profiles = strokes.map(|(direction, profile)| {
-        let heights_um = profile.heights_um().to_vec();
-        (direction, heights_um, profile.step_mm())
-    });
-    let [low_um, high_um] = extent(made.map.heights_um().values().iter().copied());
-    let uncertainty = Uncertainty {
-        levels: about.levels,
-        ..Uncertainty::default()
-    };
-    Ok(Made {
-        relief: Relief3d::of(&made.map),
-        relief_um: high_um - low_um,
-        smd_um: smd_um(&made.profiles),
-        known: [uncertainty.words(), advice],
-        profiles: profiles.collect(),
-        textile: Arc::new(vec![NewTextile {
-            id: inputs.id(),
-            name: about.name,
-            files: made.files,
-        }]),
-    })
-}
-
 /// Pixels to a millimetre, if anything is known of it.
 fn px_per_mm(inputs: &Draft, tiled: Option<&Tiled>) -> Result<Option<f64>, End> {
     let lattice = tiled.map(|tiled| &tiled.lattice);
     let scale = inputs.picture_scale().map(|s| s.px_per_mm(lattice));
     let failed = |error: PictureError| End::Failed(Step::Picture, error.to_string());
     scale.transpose().map_err(failed)
-}
-
-/// The lamp, as far as it is known where it stands.
-fn lamp(inputs: &Draft) -> Lamp {
-    if inputs.is_light_estimated {
-        Lamp::Unknown
-    } else {
-        Lamp::Known {
-            light: inputs.light,
-            within_deg: Lamp::WITHIN_DEG,
-        }
-    }
 }
