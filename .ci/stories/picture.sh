@@ -17,8 +17,9 @@ sleep 1
 slowly 'mousemove 297 56' 'click --repeat 2 --delay 120 1'
 sleep 6
 shot opened
-slowly 'mousemove 90 137' 'click 1' "type --delay 40 '300'" 'key Tab' 'mousemove 90 618' 'click 1' \
-  "type --delay 40 '120'" 'key Tab' 'mousemove 168 566' 'click 1'
+slowly 'mousemove 95 165' 'click 1' "type --delay 40 '300'" 'key Tab' 'mousemove 90 618' 'click 1' \
+  "type --delay 40 '120'" 'key Tab' 'mousemove 150 420' \
+  'click --repeat 30 5' 'mousemove 168 466' 'click 1'
 sleep 3
 await 100 is_made || fail "the textile is never made"
 shot made
