@@ -15,7 +15,7 @@ use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_textile::picture::brightness::Brightness;
 use selvedge_textile::picture::shading::{Light, Method, ShadingError, ShadingOptions};
 use selvedge_textile::picture::{
-    Analysis, EvenLight, Picture, PictureScale, Relief, ReliefOf, Turned, TurnedPicture, even_light,
+    Analysis, EvenLight, PictureScale, Relief, ReliefOf, Turned, TurnedPicture,
 };
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{
@@ -105,9 +105,6 @@ pub(super) struct Felt {
     turned: Vec<String>,
 }
 
-/// Further pictures at most.
-const MAX_TURNED: usize = 3;
-
 /// What was seen of the cloth.
 pub(super) struct Seen {
     pub(super) analysis: Analysis,
@@ -146,7 +143,7 @@ impl ReliefArgs {
             return refuse(&format!("--smd-um needs the picture's scale; {mend}"));
         }
         let options = self.options();
-        if self.turned.len() > MAX_TURNED {
+        if self.turned.len() > Turned::MAX {
             return refuse("--turned takes up to three further pictures; leave some out");
         }
         let is_several = !self.turned.is_empty();
@@ -233,11 +230,14 @@ impl ReliefArgs {
         let mut all = Vec::new();
         for path in &self.turned {
             let bytes = selvedge_textile::read_measurement(path)?;
-            let (luminance, _) = even_light(Picture::load(&bytes, path)?.luminance, even);
-            let one = Turned::of(&analysis.luminance, (&luminance, path), n_threads, progress)?;
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let kept = one.kept(name.into_owned(), sha256_hex([bytes.as_slice()]));
-            all.push((one, kept));
+            let other = (bytes.as_slice(), path.as_path());
+            all.push(Turned::read(
+                &analysis.luminance,
+                other,
+                even,
+                n_threads,
+                progress,
+            )?);
         }
         Ok(all)
     }
@@ -276,10 +276,11 @@ impl ReliefArgs {
         let mut about = self.about(origin, scaled);
         about.size_px = Some(relief.brightness.size_px);
         about.turned = kept;
-        let shares = (seen.colour.as_ref(), turned.as_slice());
-        about.colours = Some(relief.brightness.colours(shares, (self.relief_of, found)));
         let advice = match &self.textile {
             Some(_) => {
+                let shares = (seen.colour.as_ref(), turned.as_slice());
+                let colours = relief.brightness.colours(shares, (self.relief_of, found));
+                about.colours = Some(colours);
                 let own = (&mut relief, self.shading.is_some());
                 Ensemble::believe(own, &mut about, self.lamp(), n_threads, progress)?
             }

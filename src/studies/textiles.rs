@@ -61,7 +61,15 @@ pub(crate) fn wrong(name: &str) -> impl Fn(SurfaceError) -> TextileError {
 
 /// The relief that a textile's recipe makes.
 pub(crate) fn relief(name: &str, source: &Source) -> Result<HeightMap, TextileError> {
-    let map = source.height_map().unwrap_or(Err(SurfaceError::AllMissing));
+    known(name, source.height_map())
+}
+
+/// Heights over an area, if the textile of this name has any.
+pub(crate) fn known(
+    name: &str,
+    map: Option<Result<HeightMap, SurfaceError>>,
+) -> Result<HeightMap, TextileError> {
+    let map = map.unwrap_or(Err(SurfaceError::AllMissing));
     map.map_err(wrong(name))
 }
 

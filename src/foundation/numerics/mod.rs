@@ -26,7 +26,9 @@ pub use maxima::QuadraticPeak;
 pub use parallel::{in_pieces, n_threads};
 pub use plane::PlaneTransform;
 pub use random::Random;
-pub use series::{LineFit, at_place, autocorrelation, structure_function, without_line};
+pub use series::{
+    LineFit, at_place, autocorrelation, catmull_rom, structure_function, without_line,
+};
 pub use simplex::Lowest;
 pub use sparse::GridFactor;
 pub use stft::{GriffinLim, StartPhases, Stft};

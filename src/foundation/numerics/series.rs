@@ -91,6 +91,17 @@ pub fn structure_function(values: &[f64], lag: usize) -> f64 {
     sum / n
 }
 
+/// Weights of the samples at −1, 0, 1 and 2 in the cubic between 0 and 1 (Catmull & Rom 1974).
+pub fn catmull_rom(t: f64) -> [f64; 4] {
+    let (t2, t3) = (t * t, t * t * t);
+    [
+        0.5 * (2.0 * t2 - t3 - t),
+        0.5 * (3.0 * t3 - 5.0 * t2 + 2.0),
+        0.5 * (4.0 * t2 - 3.0 * t3 + t),
+        0.5 * (t3 - t2),
+    ]
+}
+
 /// A sample between samples, by straight lines; beyond either end the end's. NaN of none.
 pub fn at_place(values: &[f64], place: f64) -> f64 {
     let last = values.len().saturating_sub(1);

@@ -17,7 +17,7 @@
 
 use super::rolling::dilated;
 use crate::RenderError;
-use selvedge_foundation::numerics::{Grid, to_whole};
+use selvedge_foundation::numerics::{Grid, catmull_rom, to_whole};
 use selvedge_textile::surface::{Direction, HeightMap, Profile, Surface};
 
 /// A surface as a tip meets it, in the textile's frame: u along the warp, w along the weft.
@@ -187,7 +187,7 @@ impl Taps {
         let place = place.clamp(-1e12, 1e12);
         let below = place.floor();
         let t = place - below;
-        let (t2, t3) = (t * t, t * t * t);
+        let t2 = t * t;
         let first = to_whole::<isize>(below) - 1;
         let inside = first >= 0 && first as usize + 3 < n;
         let at = |tap: isize| {
@@ -200,12 +200,7 @@ impl Taps {
         Self {
             n: 4,
             index: [at(0), at(1), at(2), at(3)],
-            weight: [
-                0.5 * (2.0 * t2 - t3 - t),
-                0.5 * (3.0 * t3 - 5.0 * t2 + 2.0),
-                0.5 * (4.0 * t2 - 3.0 * t3 + t),
-                0.5 * (t3 - t2),
-            ],
+            weight: catmull_rom(t),
             slope: [
                 0.5 * (4.0 * t - 3.0 * t2 - 1.0),
                 0.5 * (9.0 * t2 - 10.0 * t),

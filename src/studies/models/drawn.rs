@@ -3,9 +3,9 @@
 use crate::{Bench, Findings, ReportError, Row, Study, textiles};
 use selvedge_foundation::numerics::Random;
 use selvedge_foundation::quantity::level_db;
-use selvedge_textile::surface::{HeightMap, Probe, Surface, SurfaceError};
+use selvedge_textile::Library;
+use selvedge_textile::surface::{HeightMap, Probe, Surface};
 use selvedge_textile::tactile::{Filters, Levels};
-use selvedge_textile::{Library, Source};
 
 /// Fine, coarse, ridged by their twist, and knitted.
 const CLOTHS: [&str; 4] = [
@@ -40,12 +40,15 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
         bench.step(done as f64 / cloths.len() as f64, id)?;
         let source = library.manifest(id)?.source;
         let truth = if bench.wants_errors() {
-            Some(levels_db(&drawn(id, &source, finest_mm)?, id)?)
+            Some(levels_db(
+                &textiles::known(id, source.relief(finest_mm))?,
+                id,
+            )?)
         } else {
             None
         };
         for step_mm in [0.16, 0.08, 0.04, OWN_MM] {
-            let map = drawn(id, &source, step_mm)?;
+            let map = textiles::known(id, source.relief(step_mm))?;
             let cost = bench
                 .time(1, || source.relief(step_mm))
                 .times(1.0 / sq_mm(&map));
@@ -68,13 +71,6 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
          looked at is drawn more coarsely."
     )];
     Ok(Findings::new(rows, Vec::new(), notes))
-}
-
-fn drawn(id: &str, source: &Source, step_mm: f64) -> Result<HeightMap, ReportError> {
-    let map = source.relief(step_mm);
-    Ok(map
-        .unwrap_or(Err(SurfaceError::AllMissing))
-        .map_err(textiles::wrong(id))?)
 }
 
 fn sq_mm(map: &HeightMap) -> f64 {

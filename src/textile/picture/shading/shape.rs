@@ -156,6 +156,9 @@ pub(super) fn mean(grid: &Grid<f64>) -> f64 {
     grid.values().iter().sum::<f64>() / grid.values().len().max(1) as f64
 }
 
+/// How many readings of its own the even albedo counts for at a point of several pictures.
+pub(super) const EVEN: f64 = 0.3;
+
 /// What pictures show on the mean: what does not turn with the light.
 pub(super) fn mean_of(views: &[View<'_>], first: &Grid<f64>) -> Grid<f64> {
     let mut sum = first.map(|_| 0.0);

@@ -9,7 +9,7 @@
 
 use std::f64::consts::PI;
 
-use super::shape::{ShadingOptions, about_mean, mean, mean_of};
+use super::shape::{EVEN, ShadingOptions, about_mean, mean, mean_of};
 use super::{Light, View, linear};
 use selvedge_foundation::numerics::{Complex, Grid, PlaneTransform, extent, to_index};
 
@@ -17,8 +17,6 @@ use selvedge_foundation::numerics::{Complex, Grid, PlaneTransform, extent, to_in
 const N_TILTS: usize = 180;
 /// Waves that are looked at, cycles/px.
 const PER_PX: [f64; 2] = [0.015, 0.25];
-/// How much an albedo counts against an even one.
-const EVEN: f64 = 0.3;
 /// The share of a wave that a light across it shows all the same.
 const LEAST: f64 = 0.02;
 /// Tilts that leave less than this many times the least may be the true one, and what is left of

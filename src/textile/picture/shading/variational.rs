@@ -15,7 +15,7 @@ use super::error::ShadingError;
 use super::reflectance::{
     Lambert, across, across_row, along, along_row, laplacian, laplacian_row, residual, residual_of,
 };
-use super::shape::{Found, ShadingOptions};
+use super::shape::{EVEN, Found, ShadingOptions};
 use super::tangent::{Normal, Tangent, add, dot, down, mean_problem, product, squares};
 use super::{View, linear};
 use selvedge_foundation::numerics::{Complex, Grid, PlaneTransform};
@@ -34,8 +34,6 @@ const MIN_GAIN: f64 = 0.03;
 const TIKHONOV: f64 = 1e-7;
 /// Damping of a step, at first, and its limits.
 const DAMPING: [f64; 3] = [1e-7, 1e-3, 1e3];
-/// How many readings of its own the even albedo counts for at a point of several pictures.
-const EVEN: f64 = 0.3;
 /// Rounds of conjugate gradients, and the share of the first residual (squared) that ends them.
 const N_INNER: usize = 20;
 const INNER_END: f64 = 0.01;
@@ -44,8 +42,7 @@ const N_HALVINGS: usize = 10;
 
 /// A picture of the surface.
 struct Seen {
-    brightness: Grid<f64>,
-    /// The same over each point's share of the albedo.
+    /// Brightness, over each point's share of the albedo.
     target: Grid<f64>,
     matt: Lambert,
 }
@@ -53,6 +50,8 @@ struct Seen {
 /// One surface that is being fitted.
 struct Fit {
     seen: Vec<Seen>,
+    /// Brightness itself, where there are several pictures and so shares of the albedo.
+    brightness: Vec<Grid<f64>>,
     transform: PlaneTransform,
     albedo: f64,
     smoothness: f64,
@@ -124,7 +123,13 @@ pub(super) fn solve(
         } else {
             finer(&found.height_px, size)
         };
+        let brightnesses = if views.len() > 1 {
+            coarse.clone()
+        } else {
+            Vec::new()
+        };
         let mut fit = Fit {
+            brightness: brightnesses,
             seen: coarse.into_iter().zip(views).map(Seen::of).collect(),
             transform: PlaneTransform::new(size[0], size[1]),
             albedo: found.albedo,
@@ -160,10 +165,9 @@ fn finer(coarse: &Grid<f64>, size: [usize; 2]) -> Grid<f64> {
 }
 
 impl Seen {
-    fn of((brightness, (_, light)): (Grid<f64>, &View<'_>)) -> Self {
+    fn of((target, (_, light)): (Grid<f64>, &View<'_>)) -> Self {
         Self {
-            target: brightness.clone(),
-            brightness,
+            target,
             matt: Lambert::under(*light),
         }
     }
@@ -222,17 +226,18 @@ impl Fit {
         if sums.0 > 0.0 && sums.1 > 0.0 {
             self.albedo = sums.0 / sums.1;
         }
-        if self.seen.len() < 2 {
+        if self.brightness.is_empty() {
             return;
         }
         for (i, (p, q)) in slopes().enumerate() {
-            let (er, rr) = self.seen.iter().fold((EVEN, EVEN), |(er, rr), seen| {
+            let pairs = self.seen.iter().zip(&self.brightness);
+            let (er, rr) = pairs.fold((EVEN, EVEN), |(er, rr), (seen, brightness)| {
                 let bright = seen.matt.of(*p, *q).max(0.0);
-                let e = seen.brightness.values()[i] / self.albedo;
+                let e = brightness.values()[i] / self.albedo;
                 (er + e * bright, rr + bright * bright)
             });
-            for seen in &mut self.seen {
-                seen.target.values_mut()[i] = seen.brightness.values()[i] * rr / er;
+            for (seen, brightness) in self.seen.iter_mut().zip(&self.brightness) {
+                seen.target.values_mut()[i] = brightness.values()[i] * rr / er;
             }
         }
     }

@@ -18,7 +18,10 @@ use serde::{Deserialize, Serialize};
 
 use super::PictureError;
 use super::basis::{Place, length, mix};
+use super::light::{EvenLight, even_light};
+use super::source::Picture;
 use matching::{Level, Matched};
+use selvedge_foundation::files::sha256_hex;
 use selvedge_foundation::numerics::{Grid, in_pieces, median, to_index};
 use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::fixed;
@@ -80,12 +83,40 @@ pub struct TurnedPicture {
 }
 
 impl Turned {
+    /// Further pictures at most.
+    pub const MAX: usize = 3;
+
+    /// Reads another picture and lays it over the first, in even light as that is; with what a
+    /// textile keeps of it. `path` names it.
+    ///
+    /// # Errors
+    /// A file that is no picture; as [`Self::of`].
+    pub fn read(
+        first: &Grid<f64>,
+        (bytes, path): (&[u8], &Path),
+        even: EvenLight,
+        n_threads: usize,
+        progress: &mut Progress<'_>,
+    ) -> Result<(Self, TurnedPicture), PictureError> {
+        let (luminance, _) = even_light(Picture::load(bytes, path)?.luminance, even);
+        let turned = Self::of(first, (&luminance, path), n_threads, progress)?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let hundredths = |x: f64| (100.0 * x).round() / 100.0;
+        let kept = TurnedPicture {
+            picture: name.into_owned(),
+            sha256: sha256_hex([bytes]),
+            turn_deg: hundredths(turned.map.turn_deg()),
+            score: hundredths(turned.score),
+        };
+        Ok((turned, kept))
+    }
+
     /// Finds the cloth of the first picture in another, both in even light. `path` names that in
     /// errors.
     ///
     /// # Errors
     /// A picture that is too small, is not of the same cloth, or fits in several places. Cancelled.
-    pub fn of(
+    fn of(
         first: &Grid<f64>,
         (other, path): (&Grid<f64>, &Path),
         n_threads: usize,
@@ -136,17 +167,6 @@ impl Turned {
             residual_px,
             size,
         })
-    }
-
-    /// What a textile keeps of it.
-    pub fn kept(&self, picture: String, sha256: String) -> TurnedPicture {
-        let hundredths = |x: f64| (100.0 * x).round() / 100.0;
-        TurnedPicture {
-            picture,
-            sha256,
-            turn_deg: hundredths(self.map.turn_deg()),
-            score: hundredths(self.score),
-        }
     }
 
     /// How it lies over the first, in a line.

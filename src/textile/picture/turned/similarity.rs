@@ -1,7 +1,7 @@
 //! Turning, scaling and shifting from one picture to another.
 
 use super::super::basis::{Place, mix};
-use selvedge_foundation::numerics::{Complex, Grid, in_pieces, to_whole};
+use selvedge_foundation::numerics::{Complex, Grid, catmull_rom, in_pieces, to_whole};
 
 /// A similarity of the plane: pixels, y down.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -103,21 +103,12 @@ fn complex([x, y]: Place) -> Complex {
     Complex::new(x, y)
 }
 
-/// A value between samples by cubics through four each way (Catmull and Rom), which keeps more of
+/// A value between samples by cubics through four each way, which keeps more of
 /// fine threads than straight lines do; beyond the edges the edges' values.
 fn cubic(grid: &Grid<f64>, place: Place) -> f64 {
-    let weights = |t: f64| {
-        let [t2, t3] = [t * t, t * t * t];
-        [
-            -0.5 * t + t2 - 0.5 * t3,
-            1.0 - 2.5 * t2 + 1.5 * t3,
-            0.5 * t + 2.0 * t2 - 1.5 * t3,
-            0.5 * t3 - 0.5 * t2,
-        ]
-    };
     let last = [grid.width(), grid.height()].map(|n| n as f64 - 1.0);
     let at = [0, 1].map(|axis| place[axis].clamp(0.0, last[axis]));
-    let [x, y] = at.map(|at| weights(at - at.floor()));
+    let [x, y] = at.map(|at| catmull_rom(at - at.floor()));
     let index = |axis: usize, i: usize| {
         to_whole::<usize>((at[axis].floor() + i as f64 - 1.0).clamp(0.0, last[axis]))
     };

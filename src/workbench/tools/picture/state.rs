@@ -14,9 +14,7 @@ use crate::bench::pane::Pane;
 use crate::tools::picture::draft::{Draft, Part};
 use crate::tools::picture::found::Found;
 use crate::tools::picture::textures::Textures;
-
-/// Further pictures at most.
-pub(crate) const MAX_TURNED: usize = 3;
+use selvedge_textile::picture::Turned;
 
 /// A picture, what is wanted of it and what was made.
 #[derive(Default)]
@@ -92,7 +90,7 @@ impl Picture {
     /// Takes a further picture of the cloth, turned; no more than can be used.
     pub(super) fn add_turned(&mut self, path: PathBuf) {
         let mut draft = self.draft.clone();
-        if draft.source.is_some() && draft.turned.len() < MAX_TURNED {
+        if draft.source.is_some() && draft.turned.len() < Turned::MAX {
             draft.turned.push(path.into());
             self.take_draft(draft);
         }

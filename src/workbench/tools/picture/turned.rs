@@ -2,12 +2,9 @@
 
 use crate::tools::picture::draft::{Draft, Part};
 use crate::tools::picture::found::{Correlated, Found, Laid};
-use selvedge_foundation::files::sha256_hex;
 use selvedge_foundation::progress::{Cancelled, Progress};
 use selvedge_textile::n_threads;
-use selvedge_textile::picture::{
-    EvenLight, Picture, PictureError, Turned, TurnedPicture, even_light,
-};
+use selvedge_textile::picture::{EvenLight, PictureError, Turned, TurnedPicture};
 
 /// Whether uneven light is divided out.
 pub(super) fn even(inputs: &Draft) -> EvenLight {
@@ -26,34 +23,20 @@ pub(super) fn turned(
 ) -> Result<Vec<Laid>, Cancelled> {
     let mut all = Vec::new();
     for file in &inputs.turned {
-        let picture = match file.bytes() {
-            _ if inputs.part != Part::Whole => {
-                Err("further pictures go with the whole picture; choose part “all”".to_owned())
-            }
-            Ok(bytes) => Picture::load(bytes, file.file_name())
-                .map(|picture| (picture, sha256_hex([bytes])))
-                .map_err(|error| error.to_string()),
-            Err(line) => Err(line.to_owned()),
+        let bytes = match inputs.part {
+            Part::Whole => file.bytes().map_err(str::to_owned),
+            _ => Err("further pictures go with the whole picture; choose part “all”".to_owned()),
         };
-        let (picture, sha256) = match picture {
-            Ok(read) => read,
-            Err(line) => {
-                all.push(Err(line));
-                continue;
-            }
-        };
-        let (luminance, _) = even_light(picture.luminance, even(inputs));
-        let other = (&luminance, file.file_name());
-        all.push(
-            match Turned::of(&correlated.luminance, other, n_threads(), progress) {
-                Ok(one) => {
-                    let kept = one.kept(file.name(), sha256);
-                    Ok((one, kept))
-                }
-                Err(PictureError::Cancelled(cancelled)) => return Err(cancelled),
-                Err(error) => Err(error.to_string()),
-            },
-        );
+        let laid = bytes.map(|bytes| {
+            let other = (bytes, file.file_name());
+            let (first, even) = (&correlated.luminance, even(inputs));
+            Turned::read(first, other, even, n_threads(), progress)
+        });
+        all.push(match laid {
+            Ok(Err(PictureError::Cancelled(cancelled))) => return Err(cancelled),
+            Ok(laid) => laid.map_err(|error| error.to_string()),
+            Err(line) => Err(line),
+        });
     }
     Ok(all)
 }

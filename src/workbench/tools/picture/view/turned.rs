@@ -8,7 +8,7 @@ use crate::kit::widgets::fields::{Tone, note};
 use crate::kit::widgets::text::button;
 use crate::tools::picture::draft::Draft;
 use crate::tools::picture::found::Found;
-use crate::tools::picture::state::MAX_TURNED;
+use selvedge_textile::picture::Turned;
 
 /// Shows them, and adds and removes them.
 pub(crate) fn show(ui: &mut Ui, draft: &mut Draft, found: Option<&Found>, commands: &mut Commands) {
@@ -34,7 +34,7 @@ pub(crate) fn show(ui: &mut Ui, draft: &mut Draft, found: Option<&Found>, comman
     if let Some(i) = removed {
         draft.turned.remove(i);
     }
-    let refusal = (draft.turned.len() >= MAX_TURNED).then_some("Up to three are used");
+    let refusal = (draft.turned.len() >= Turned::MAX).then_some("Up to three are used");
     let tip = "The same cloth turned by any angle under the same lamp: height, colour and the \
                light’s direction are then found together";
     if button(ui, "Add a turned picture…", tip, refusal) {
