@@ -272,7 +272,7 @@ fn smoothed(picture: &Grid<f32>) -> Grid<f32> {
 
 fn pictures(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
     // Nothing is seen where errors are not asked for.
-    let n_cloths = bench.effort.pick(2, 40);
+    let n_cloths = bench.effort.pick(4, 40);
     let (taken, all) = if bench.wants_errors() {
         let taken = Taken::held_back(Split::Cloths, n_cloths, n_threads());
         (taken, Spoilt::all(bench))

@@ -127,7 +127,7 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
     let stiffnesses = bench
         .effort
         .pick(&[1e1, 1e4, 1e6][..], &[1e1, 1e2, 1e3, 1e4, 1e5, 1e6]);
-    let densities = bench.effort.pick(&[0.02][..], &[0.02, 0.1, 0.3, 1.0]);
+    let densities = bench.effort.pick(&[0.02, 1.0][..], &[0.02, 0.1, 0.3, 1.0]);
     let steps_ms = bench.effort.pick(
         &[0.1, 4.0, 50.0][..],
         &[0.1, 0.3, 1.0, 2.0, 4.0, 10.0, 20.0, 50.0],

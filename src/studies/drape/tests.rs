@@ -52,7 +52,7 @@ fn every_case_is_held_or_refused() {
     let findings = quick(&STABILITY, 1);
     let broken: Vec<&Row> = findings.broken().collect();
     assert!(broken.is_empty(), "{broken:#?}");
-    assert_eq!(findings.rows.len(), 7 * 5 * 3 * 3);
+    assert_eq!(findings.rows.len(), 7 * 5 * 3 * 2 * 3);
     assert_eq!(findings.plots.len(), 5);
     let refused = findings
         .rows

@@ -375,13 +375,13 @@ fn a_hundred_observers_set_gains_to_what_the_cloth_has() {
 #[test]
 fn ratings_of_a_hundred_observers_are_found_and_held() {
     let design = Design::shipped("rating").unwrap();
-    let (observer, n_studies) = (Observer::default(), 12);
+    let (observer, n_studies) = (Observer::default(), 20);
     let n_items = design.stimuli.len();
     let mut sums = vec![[0.0; 2]; design.composition.scales().len() * n_items];
     // Where a scale begins is a subject's own, so that all stimuli of a scale miss together: a
     // study is four intervals rather than sixty-four, and many studies say how many hold. What they
-    // are to hold is known to a third of their standard error.
-    for found in sessions(&design, &observer, n_studies * N..n_studies * N + 1200) {
+    // are to hold is known to a fifth of their width.
+    for found in sessions(&design, &observer, n_studies * N..n_studies * N + 2500) {
         for record in found.records.iter().filter(|r| !r.trial.is_practice) {
             let Some(AnswerValue::Ratings(values)) = record.value() else {
                 continue;
