@@ -63,7 +63,7 @@ pub use error::ReportError;
 pub use pareto::{Front, pareto};
 pub use rendering::{Running, ThisSceneStudy};
 pub use rounds::times_alone;
-pub use runner::{Again, Options, Outcome, Report, Standing, choose, run};
+pub use runner::{Again, Heard, Options, Outcome, Report, Standing, choose, run};
 pub use study::{Findings, Row, Study};
 
 /// Every study of the floors below, in the order of the report: chapter by chapter.

@@ -9,8 +9,10 @@
 //! bootstrap of five values promises more than they hold. Of two reports whose processes are
 //! exchangeable, spans fail to meet in 2·5!·5!/10! = 0.8 % of rows.
 
+use std::sync::{Mutex, PoisonError};
+
 use super::record::{Record, RowRecord};
-use super::runner::guarded;
+use super::runner::{guarded, lock, n_at_a_time, side_by_side, unless};
 use super::{Bench, Effort, Findings, ReportError, Study};
 use selvedge_foundation::progress::{CancelFlag, Progress};
 
@@ -29,12 +31,22 @@ pub fn times_alone(
     (effort, seed): (Effort, u64),
     cancel: &CancelFlag,
 ) -> Result<String, ReportError> {
-    let mut unheard = |_: f64, _: &str| {};
-    let mut progress = Progress::new(&mut unheard, cancel.clone());
-    let mut record = Record::default();
-    for study in studies {
+    let found: Mutex<Vec<Option<_>>> = Mutex::new(studies.iter().map(|_| None).collect());
+    side_by_side(n_at_a_time(effort), studies, |nth, study| {
+        let mut unheard = |_: f64, _: &str| {};
+        let mut progress = Progress::new(&mut unheard, cancel.clone());
         let mut bench = Bench::new(effort, seed, &mut progress).again();
-        record.add(study.name, &guarded(study, &mut bench)?);
+        let findings = guarded(study, &mut bench);
+        let is_failed = findings.is_err();
+        lock(&found)[nth] = Some(findings);
+        unless(is_failed)
+    });
+    let found = found.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let mut record = Record::default();
+    for (study, findings) in studies.iter().zip(found) {
+        if let Some(findings) = findings {
+            record.add(study.name, &findings?);
+        }
     }
     record.to_json()
 }

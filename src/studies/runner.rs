@@ -3,8 +3,12 @@
 //!
 //! A study that fails or panics is noted and the next one runs; cancelling keeps what is finished.
 
+use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use super::machine::{self, Machine};
@@ -155,62 +159,142 @@ pub fn choose(studies: Vec<Study>, only: &[String]) -> Result<Vec<Study>, Report
     Ok(studies.into_iter().filter(is_wanted).collect())
 }
 
+/// Studies at work at a time. A quick report lets two cores work where there are two, each of them
+/// timed by its own thread; of a full one nothing else runs beside what is timed.
+pub(super) fn n_at_a_time(effort: Effort) -> usize {
+    let n_cores = thread::available_parallelism().map_or(1, usize::from);
+    effort.pick(n_cores.min(2), 1)
+}
+
+/// Hands out studies in their order, so many at a time, each with its place, until they are all
+/// done or one breaks off.
+pub(super) fn side_by_side(
+    n_at_a_time: usize,
+    studies: &[Study],
+    one: impl Fn(usize, &Study) -> ControlFlow<()> + Sync,
+) {
+    let next = AtomicUsize::new(0);
+    let work = || {
+        loop {
+            let nth = next.fetch_add(1, Ordering::Relaxed);
+            let Some(study) = studies.get(nth) else { break };
+            if one(nth, study).is_break() {
+                next.store(studies.len(), Ordering::Relaxed);
+            }
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 1..n_at_a_time {
+            scope.spawn(work);
+        }
+        work();
+    });
+}
+
+/// Goes on, unless it is over.
+pub(super) fn unless(is_over: bool) -> ControlFlow<()> {
+    if is_over {
+        ControlFlow::Break(())
+    } else {
+        ControlFlow::Continue(())
+    }
+}
+
+/// What is behind a lock: nothing that is kept there is half done when a thread ends.
+pub(super) fn lock<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Hears how far a report is.
+pub type Heard<'a> = dyn FnMut(&Standing<'_>) + Send + 'a;
+
+/// A report on its way: what is done, and who hears of it.
+struct Making<'a> {
+    report: Report,
+    heard: &'a mut Heard<'a>,
+    started: Instant,
+    /// How much of each study is done.
+    shares: Vec<f64>,
+    /// Share of the whole that the first process does.
+    of_first: f64,
+    /// Why its files cannot be written.
+    failed: Option<ReportError>,
+}
+
+impl Making<'_> {
+    /// Says that a study of the first process is so far.
+    fn hear(&mut self, nth: usize, share: f64, doing: &str) {
+        self.shares[nth] = share;
+        let done = self.shares.iter().sum::<f64>() / self.shares.len() as f64;
+        self.tell(self.of_first * done, self.report.outcomes[nth].0, doing);
+    }
+
+    fn tell(&mut self, share: f64, study: &str, doing: &str) {
+        (self.heard)(&Standing {
+            share,
+            study,
+            doing,
+            left: time_left(self.started.elapsed(), share),
+        });
+    }
+}
+
 /// Share of the work that the first process does, if there are others.
 const FIRST: f64 = 0.5;
 
-/// Runs studies one by one and writes the files of each when it is done, and the index each time;
-/// then has their times measured in further processes, if it can, and writes all again.
+/// Runs studies and writes the files of each when it is done, and the index each time; then has
+/// their times measured in further processes, if it can, and writes all again.
 ///
 /// # Errors
 /// A file cannot be written, or the earlier report not be read. That a study fails, or that the
 /// report is stopped, is no error here: the report says so.
-pub fn run(
+pub fn run<'a>(
     studies: &[Study],
     options: &Options,
     cancel: &CancelFlag,
     again: Option<&mut Again<'_>>,
-    heard: &mut dyn FnMut(&Standing<'_>),
+    heard: &'a mut Heard<'a>,
 ) -> Result<Report, ReportError> {
     let old = options.against.as_deref().map(Record::read).transpose()?;
     let mut machine = Machine::here();
-    let (date, started) = (machine::now_utc(), Instant::now());
-    let mut tell = |share: f64, study: &str, doing: &str| {
-        heard(&Standing {
-            share,
-            study,
-            doing,
-            left: time_left(started.elapsed(), share),
-        });
-    };
-    let of_first = if again.is_some() { FIRST } else { 1.0 };
-    let mut report = Report::begun(studies);
-    for (nth, study) in studies.iter().enumerate() {
-        let mut hear = |share: f64, doing: &str| {
-            let share = of_first * (nth as f64 + share) / studies.len() as f64;
-            tell(share, study.name, doing);
-        };
+    let date = machine::now_utc();
+    let making = Mutex::new(Making {
+        report: Report::begun(studies),
+        heard,
+        started: Instant::now(),
+        shares: vec![0.0; studies.len()],
+        of_first: if again.is_some() { FIRST } else { 1.0 },
+        failed: None,
+    });
+    side_by_side(n_at_a_time(options.effort), studies, |nth, study| {
+        let mut hear = |share: f64, doing: &str| lock(&making).hear(nth, share, doing);
         hear(0.0, "");
         let mut progress = Progress::new(&mut hear, cancel.clone());
         let outcome = one(study, options, &mut progress);
+        let making = &mut *lock(&making);
+        making.shares[nth] = 1.0;
+        let report = &mut making.report;
         report.is_cancelled |= matches!(outcome, Outcome::Stopped) || cancel.is_cancelled();
         report.outcomes[nth].1 = outcome;
-        report.write_findings(&studies[nth..=nth], options)?;
-        index::write(studies, &report, (&machine, options, &date))?;
-        if report.is_cancelled {
-            break;
+        let written = (report.write_findings(&studies[nth..=nth], options))
+            .and_then(|()| index::write(studies, report, (&machine, options, &date)));
+        let is_over = report.is_cancelled || written.is_err();
+        if let Err(error) = written {
+            making.failed.get_or_insert(error);
         }
+        unless(is_over)
+    });
+    let mut making = making.into_inner().unwrap_or_else(PoisonError::into_inner);
+    if let Some(error) = making.failed {
+        return Err(error);
     }
-    if let Some(again) = again.filter(|_| !report.is_cancelled) {
-        let n_processes = rounds::n_processes(options.effort);
-        let mut hear = |nth: usize, doing: &str| {
-            let share = FIRST + (1.0 - FIRST) * nth as f64 / n_processes as f64;
-            tell(share, "times", doing);
-        };
-        let timed = report.timed(studies);
-        measure_again((&timed, n_processes), &mut report, again, &mut hear);
-        report.is_cancelled |= cancel.is_cancelled();
-        report.write_findings(&timed, options)?;
+    if let Some(again) = again.filter(|_| !making.report.is_cancelled) {
+        let timed = making.report.timed(studies);
+        measure_again(&timed, options.effort, &mut making, again);
+        making.report.is_cancelled |= cancel.is_cancelled();
+        making.report.write_findings(&timed, options)?;
     }
+    let mut report = making.report;
     machine.look_again();
     let record = record_of(&report, &machine.program, &date, options);
     report.since = old.map(|old| Since::between(&old, &record));
@@ -221,29 +305,26 @@ pub fn run(
 
 /// Has the times of studies measured by further processes, one after the other, and joins what they
 /// found. A process that fails ends it, and is told.
-fn measure_again(
-    (timed, n_processes): (&[Study], usize),
-    report: &mut Report,
-    again: &mut Again<'_>,
-    hear: &mut dyn FnMut(usize, &str),
-) {
+fn measure_again(timed: &[Study], effort: Effort, making: &mut Making<'_>, again: &mut Again<'_>) {
     if timed.is_empty() {
         return;
     }
+    let n_processes = rounds::n_processes(effort);
     let names: Vec<&str> = timed.iter().map(|study| study.name).collect();
     let mut records = Vec::new();
     for nth in 1..n_processes {
-        hear(nth, &format!("process {} of {n_processes}", nth + 1));
+        let which = format!("process {} of {n_processes}", nth + 1);
+        let share = FIRST + (1.0 - FIRST) * nth as f64 / n_processes as f64;
+        making.tell(share, "times", &which);
         match again(&names).and_then(|text| Record::parse(&text)) {
             Ok(record) => records.push(record),
             Err(error) => {
-                let why = format!("process {} of {n_processes}: {error}", nth + 1);
-                report.trouble = Some(why);
+                making.report.trouble = Some(format!("{which}: {error}"));
                 break;
             }
         }
     }
-    for (name, outcome) in &mut report.outcomes {
+    for (name, outcome) in &mut making.report.outcomes {
         if let Outcome::Done { findings, .. } = outcome
             && names.contains(name)
         {

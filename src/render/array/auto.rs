@@ -25,8 +25,10 @@ mod ns {
     pub(super) const SUM_BIN: f64 = 1.1;
     /// A bin of a row of a table, where points are summed together.
     pub(super) const ROW_BIN: f64 = 0.28;
-    /// A speed: its place in tables, or where its gains begin and end.
+    /// A speed: where its gains begin and end.
     pub(super) const SPEED: f64 = 25.0;
+    /// Its place in tables.
+    pub(super) const SPEED_IN_TABLES: f64 = 8.0;
     /// A look-up in tables.
     pub(super) const LOOK_UP: f64 = 2.4;
     /// Preparing `banded`.
@@ -108,7 +110,7 @@ impl Work {
         let [gains, powers] = self.node_bins_made;
         let preparing = ns::TABLE + plan.pool.len() as f64 * ns::TABLE_OF_SPECTRA;
         let table = preparing
-            + self.speeds * ns::SPEED
+            + self.speeds * ns::SPEED_IN_TABLES
             + self.directions * ns::LOOK_UP
             + gains * ns::GAIN
             + powers * ns::ROW_BIN;

@@ -155,30 +155,21 @@ impl Contacts<'_> {
         }
     }
 
-    /// The same with the place along an axis, mm, and the velocity along it, mm/s.
+    /// The same with the place along an axis, mm, and the velocity along it, mm/s. One loop for
+    /// all and for some, so that what is done stands in it once.
     #[inline]
     pub(crate) fn for_each_moving<T>(
         &self,
-        axis: Axis,
+        (axis, along_mm_per_s): (Axis, &[f64]),
         outputs: &mut [T],
         mut act: impl FnMut(f64, f64, &mut T),
     ) {
-        let along = axis as usize;
-        let Motion::Turning(warp, weft) = self.motion else {
-            let own = self.velocity_mm_per_s(0)[along];
-            return self.for_each_placed(outputs, |places_mm, output| {
-                act(places_mm[along], own, output);
-            });
-        };
-        let moving = self.places_mm[along].iter().zip([warp, weft][along]);
-        let moving = outputs.iter_mut().zip(moving);
-        if self.n_contactors == self.owners.len() {
-            moving.for_each(|(output, (&place, &own))| act(place, own, output));
-        } else {
-            let owned = moving.zip(self.owners);
-            owned
-                .filter(|&(_, &owner)| usize::from(owner) == self.textile)
-                .for_each(|((output, (&place, &own)), _)| act(place, own, output));
+        let moving = self.places_mm[axis as usize].iter().zip(along_mm_per_s);
+        let is_all = self.n_contactors == self.owners.len();
+        for ((output, (&place, &own)), &owner) in outputs.iter_mut().zip(moving).zip(self.owners) {
+            if is_all || usize::from(owner) == self.textile {
+                act(place, own, output);
+            }
         }
     }
 

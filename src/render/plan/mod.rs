@@ -17,7 +17,7 @@ pub use counters::{Counters, Rule};
 pub use display::MaterialContact;
 pub(super) use display::{DisplayPlan, finite_pose, is_at_rest};
 pub(super) use motion::{Axis, Component};
-pub(super) use point::{PointGrid, PointIndex, nearest_mm, whole_part};
+pub(super) use point::{PointGrid, PointIndex, nearest_mm};
 
 use std::sync::Arc;
 

@@ -98,7 +98,7 @@ impl PointGrid {
     reason = "the low bits are what is wanted"
 )]
 #[inline]
-pub(crate) fn whole_part(x: f64) -> u32 {
+fn whole_part(x: f64) -> u32 {
     const SHIFT: f64 = 4_503_599_627_370_496.0;
     let shifted = x + SHIFT;
     let is_rounded_up = shifted - SHIFT > x;

@@ -1,9 +1,10 @@
-//! A case in numbers, the scene that it stands for, and how near a method comes to its bound there.
+//! Amplitudes: a case in numbers, the scene that it stands for, and how near a method of rendering
+//! comes to its bound there.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use super::Target;
+use super::{Field, Range, Spaced, Target};
 use crate::{ReportError, textiles};
 use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation, Velocity};
 use selvedge_foundation::numerics::{Grid, Random};
@@ -25,70 +26,83 @@ const RELIEF_STEP_MM: f64 = 0.06;
 const ROUNDING: (f64, f64) = (1e-11, 1e-15);
 
 /// A surface, a filter, a place and a motion: a number for each of [`RANGES`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Case(pub(super) [f64; RANGES.len()]);
+struct Case([f64; RANGES.len()]);
 
-/// The name of each number, from where to where it goes, and whether evenly over its logarithm:
-/// the width of the filters; how fast the display goes, where it heads, where it is, how it is
+/// The width of the filters; how fast the display goes, where it heads, where it is, how it is
 /// turned and how fast it turns; how the textile lies; the bins of its two waves, and how much
 /// weaker the second is; the step of the profile.
-pub(super) const RANGES: [(&str, [f64; 2], bool); 12] = [
-    ("octaves", [0.05, 4.0], true),
-    ("speed_mm_per_s", [0.01, 4400.0], true),
-    ("heading_deg", [0.0, 360.0], false),
-    ("x_mm", [10.0, 90.0], false),
-    ("y_mm", [10.0, 90.0], false),
-    ("angle_deg", [0.0, 360.0], false),
-    ("turn_rad_per_s", [-20.0, 20.0], false),
-    ("tilt_deg", [0.0, 360.0], false),
-    ("bin", [1.0, 400.0], true),
-    ("second_bin", [1.0, 400.0], true),
-    ("range_db", [0.0, 200.0], false),
-    ("step_mm", [1.0 / 460.0, 0.05], true),
+const RANGES: [Range; 12] = [
+    ("octaves", [0.05, 4.0], Spaced::Log),
+    ("speed_mm_per_s", [0.01, 4400.0], Spaced::Log),
+    ("heading_deg", [0.0, 360.0], Spaced::Even),
+    ("x_mm", [10.0, 90.0], Spaced::Even),
+    ("y_mm", [10.0, 90.0], Spaced::Even),
+    ("angle_deg", [0.0, 360.0], Spaced::Even),
+    ("turn_rad_per_s", [-20.0, 20.0], Spaced::Even),
+    ("tilt_deg", [0.0, 360.0], Spaced::Even),
+    ("bin", [1.0, 400.0], Spaced::Log),
+    ("second_bin", [1.0, 400.0], Spaced::Log),
+    ("range_db", [0.0, 200.0], Spaced::Even),
+    ("step_mm", [1.0 / 460.0, 0.05], Spaced::Log),
 ];
 const SPEED: usize = 1;
 const HEADING: usize = 2;
 const TURN: usize = 6;
 const TILT: usize = 7;
 
+/// Where a method of rendering may break its bound.
+pub(super) const FIELD: Field = Field {
+    file: "amplitudes.csv",
+    stored: include_str!("amplitudes.csv"),
+    ranges: &RANGES,
+    lead: Some(straight_over_a_crossing),
+    targets: &[
+        Target {
+            name: "reference",
+            one_in: 1,
+            share: |case| share(case, Method::Reference, false),
+        },
+        Target {
+            name: "banded",
+            one_in: 1,
+            share: |case| share(case, Method::Banded, false),
+        },
+        Target {
+            name: "table",
+            one_in: 1,
+            share: |case| share(case, Method::Table, false),
+        },
+        Target {
+            name: "areal banded",
+            one_in: 6,
+            share: |case| share(case, Method::Banded, true),
+        },
+        Target {
+            name: "areal table",
+            one_in: 6,
+            share: |case| share(case, Method::Table, true),
+        },
+    ],
+};
+
+/// Moves straight along a thread, just where a bin crosses 1 kHz.
+fn straight_over_a_crossing(case: &mut [f64], random: &mut Random) {
+    let crossing = (MAX_SPEED_MM_PER_S / case[SPEED]).round().max(1.0);
+    let off = 10.0_f64.powf(random.uniform_in(-16.0, -2.0)) * random.normal().signum();
+    case[SPEED] = MAX_SPEED_MM_PER_S / crossing * (1.0 + off);
+    for still in [HEADING, TURN, TILT] {
+        case[still] = 0.0;
+    }
+}
+
+fn share(case: &[f64], method: Method, is_areal: bool) -> Result<f64, ReportError> {
+    Case(super::numbers(case)?).share(method, is_areal)
+}
+
 impl Case {
-    /// Anywhere.
-    pub(super) fn random(random: &mut Random) -> Self {
-        Self(RANGES.map(|(_, range, is_log)| {
-            let [low, high] = if is_log { range.map(f64::ln) } else { range };
-            let place = random.uniform_in(low, high);
-            if is_log { place.exp() } else { place }
-        }))
-    }
-
-    /// Another case whose numbers are off by up to this share of their ranges; now and then one
-    /// that moves straight along a thread, just where a bin crosses 1 kHz.
-    pub(super) fn beside(&self, reach: f64, random: &mut Random) -> Self {
-        let mut numbers = self.0;
-        for (number, (_, range, is_log)) in numbers.iter_mut().zip(RANGES) {
-            let [low, high] = if is_log { range.map(f64::ln) } else { range };
-            let place = if is_log { number.ln() } else { *number };
-            let place = place + 0.3 * reach * (high - low) * random.normal();
-            let place = place.clamp(low, high);
-            // Half of the numbers stay, so that one can be changed alone.
-            if random.uniform() < 0.5 {
-                *number = if is_log { place.exp() } else { place };
-            }
-        }
-        if random.uniform() < 0.25 {
-            let crossing = (MAX_SPEED_MM_PER_S / numbers[SPEED]).round().max(1.0);
-            let off = 10.0_f64.powf(random.uniform_in(-16.0, -2.0)) * random.normal().signum();
-            numbers[SPEED] = MAX_SPEED_MM_PER_S / crossing * (1.0 + off);
-            for still in [HEADING, TURN, TILT] {
-                numbers[still] = 0.0;
-            }
-        }
-        Self(numbers)
-    }
-
     /// The larger error of all contactors and bands as a share of the method's bound.
-    pub(super) fn share(&self, target: Target) -> Result<f64, ReportError> {
-        let scene = self.scene(target.is_areal)?;
+    fn share(&self, method: Method, is_areal: bool) -> Result<f64, ReportError> {
+        let scene = self.scene(is_areal)?;
         let accuracy = Accuracy::default();
         let pose = self.pose();
         let amplitudes = |method: Method| -> Result<(Vec<[f64; 2]>, ErrorBound), ReportError> {
@@ -97,8 +111,8 @@ impl Case {
             let felt = textiles::amplitudes_um(&mut renderer, std::slice::from_ref(&pose));
             Ok((felt.collect(), bound))
         };
-        let (found, mut bound) = amplitudes(target.method)?;
-        let exact = if target.method == Method::Reference {
+        let (found, mut bound) = amplitudes(method)?;
+        let exact = if method == Method::Reference {
             (bound.level_db, bound.floor) = ROUNDING;
             by_formula(&scene, &pose)
         } else {

@@ -8,7 +8,7 @@ mod tests;
 
 pub(crate) use integrators::STUDY;
 pub(crate) use orders::ORDERS;
-pub(crate) use stability::STABILITY;
+pub(crate) use stability::{Deed, STABILITY, held};
 
 use std::path::Path;
 
@@ -18,13 +18,13 @@ use selvedge_drape::{Drape, DrapeScene, Hand, Integrator};
 
 /// A cloth that is studied: how it hangs, how stiff it is, who touches it.
 #[derive(Debug, Clone, Copy)]
-struct Sample {
+pub(crate) struct Sample {
     /// Vertices along a side of 200 mm.
-    n: usize,
+    pub(crate) n: usize,
     pins: &'static str,
-    density_kg_per_m2: f64,
+    pub(crate) density_kg_per_m2: f64,
     /// Stiffness of its yarns if they are straight springs, N/m; else they are a shirting's.
-    stiffness_n_per_m: Option<f64>,
+    pub(crate) stiffness_n_per_m: Option<f64>,
     n_fingers: usize,
 }
 

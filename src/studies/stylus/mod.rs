@@ -10,6 +10,7 @@ mod surfaces;
 mod tests;
 
 pub(crate) use limits::STUDY as LIMITS;
+pub(crate) use surfaces::relief_of;
 
 use super::chart::{chart, lines_by};
 use super::readable::{largest, whole};

@@ -61,7 +61,7 @@ fn contact(row_um: &[f64], step_mm: f64) -> Result<Contact, ReportError> {
 }
 
 /// Heights in µm that repeat.
-pub(super) fn relief_of(heights_um: Grid<f64>, step_mm: f64) -> Result<Relief, ReportError> {
+pub(crate) fn relief_of(heights_um: Grid<f64>, step_mm: f64) -> Result<Relief, ReportError> {
     let map = HeightMap::new(heights_um, [step_mm; 2]);
     let map = map.map_err(|error| ReportError::Study(error.to_string()))?;
     Ok(Relief::of_map(&map.periodic()))

@@ -48,8 +48,20 @@ const MAX_SHEAR: f64 = 0.035;
 impl Tile {
     /// The mean of all cells of a picture.
     pub(crate) fn fold(luminance: &Grid<f64>, basis: Basis, n_threads: usize) -> Self {
-        let size = samples(&basis, luminance);
-        let mut folded = folded(luminance, &basis, size, n_threads);
+        let whole = [0, 0, luminance.width(), luminance.height()];
+        Self::fold_part(luminance, whole, basis, n_threads)
+    }
+
+    /// The mean of all cells of a part of a picture (left, top, width, height, px), which begins
+    /// at the part's first pixel.
+    pub(super) fn fold_part(
+        luminance: &Grid<f64>,
+        part: [usize; 4],
+        basis: Basis,
+        n_threads: usize,
+    ) -> Self {
+        let size = samples(&basis, part[2] * part[3]);
+        let mut folded = folded((luminance, part), &basis, size, n_threads);
         fill(&mut folded);
         let values = folded.iter().map(|[sum, weight]| sum / weight);
         let values = Grid::from_rows(size[0], values.collect());
@@ -215,9 +227,8 @@ fn is_primitive([i, j]: [isize; 2]) -> bool {
 }
 
 /// Samples along either vector.
-fn samples(basis: &Basis, luminance: &Grid<f64>) -> [usize; 2] {
-    let n_pixels = luminance.values().len() as f64;
-    let fine = if n_pixels >= CELLS_FOR_TWO * basis.area() {
+fn samples(basis: &Basis, n_pixels: usize) -> [usize; 2] {
+    let fine = if n_pixels as f64 >= CELLS_FOR_TWO * basis.area() {
         2.0
     } else {
         1.0
@@ -231,20 +242,21 @@ fn samples(basis: &Basis, luminance: &Grid<f64>) -> [usize; 2] {
 
 /// Sums of values and of weights in every sample of a cell.
 fn folded(
-    luminance: &Grid<f64>,
+    (luminance, [left, top, width, height]): (&Grid<f64>, [usize; 4]),
     basis: &Basis,
     [nu, nv]: [usize; 2],
     n_threads: usize,
 ) -> Vec<[f64; 2]> {
-    let n_rows = luminance.height().div_ceil(N_BANDS).max(1);
-    let mut bands = vec![vec![[0.0; 2]; nu * nv]; luminance.height().div_ceil(n_rows)];
+    let n_rows = height.div_ceil(N_BANDS).max(1);
+    let mut bands = vec![vec![[0.0; 2]; nu * nv]; height.div_ceil(n_rows)];
     let step = basis.coordinates([1.0, 0.0]);
     let work = |(): &mut (), band: usize, sums: &mut [Vec<[f64; 2]>]| {
-        let rows = band * n_rows..((band + 1) * n_rows).min(luminance.height());
+        let rows = band * n_rows..((band + 1) * n_rows).min(height);
         let Some(sums) = sums.first_mut() else { return };
         for row in rows {
             let start = basis.coordinates([0.0, row as f64]);
-            for (x, &value) in luminance.row(row).iter().enumerate() {
+            let values = &luminance.row(top + row)[left..left + width];
+            for (x, &value) in values.iter().enumerate() {
                 let x = x as f64;
                 let ([i, ni], s) = around(start[0] + x * step[0], nu);
                 let ([j, nj], t) = around(start[1] + x * step[1], nv);

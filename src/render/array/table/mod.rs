@@ -108,7 +108,10 @@ impl TableEvaluator {
         let unit_um = self.unit_um[contacts.textile];
         match contacts.motion {
             Motion::Together(_) => self.together(textile, contacts, amplitudes_um, counters),
-            Motion::Turning(..) => self.turning(textile, contacts, amplitudes_um, counters),
+            Motion::Turning(warp, weft) => {
+                let each = (contacts, [warp, weft]);
+                self.turning(textile, each, amplitudes_um, counters);
+            }
         }
         let [low_factor, high_factor] = factors.map(|factor| single(factor * unit_um));
         contacts.for_each_owned(amplitudes_um, |_, [low, high]| {
@@ -189,7 +192,7 @@ impl TableEvaluator {
     fn turning(
         &mut self,
         textile: &TextilePlan,
-        contacts: &Contacts<'_>,
+        (contacts, along_mm_per_s): (&Contacts<'_>, [&[f64]; 2]),
         powers: &mut [[f32; 2]],
         counters: &mut Counters,
     ) {
@@ -199,7 +202,8 @@ impl TableEvaluator {
                 .iter()
                 .all(|d| self.tables[textile.spectra[*d]].is_some())
             {
-                self.turning_over_rows(textile, (contacts, axis), powers, counters);
+                let moving = (axis, along_mm_per_s[axis as usize]);
+                self.turning_over_rows(textile, (contacts, moving), powers, counters);
                 continue;
             }
             contacts.for_each_owned(powers, |contactor, power| {
@@ -215,7 +219,7 @@ impl TableEvaluator {
         let spot = self.segments.find(feel.speed_mm_per_s);
         let making = (&mut self.gains, counters);
         match (&mut self.tables[feel.spectra], &mut self.touched) {
-            (Some(table), _) => table.at(feel.point, spot, making),
+            (Some(table), _) => table.rows(spot, making).at(feel.point),
             (None, Some(touched)) => touched.at((feel.spectra, feel.point), spot, making),
             (None, None) => [0.0; 2],
         }
@@ -226,16 +230,16 @@ impl TableEvaluator {
     fn turning_over_rows(
         &mut self,
         textile: &TextilePlan,
-        (contacts, axis): (&Contacts<'_>, Axis),
+        (contacts, moving): (&Contacts<'_>, (Axis, &[f64])),
         powers: &mut [[f32; 2]],
         counters: &mut Counters,
     ) {
         let directions = [false, true].map(|is_reverse| {
-            let d = axis.direction(is_reverse).index();
+            let d = moving.0.direction(is_reverse).index();
             (textile.spectra[d], textile.points[d].along)
         });
         let (mut n_felt, mut n_at_rest, mut n_too_fast) = (0, 0, 0);
-        contacts.for_each_moving(axis, powers, |place_mm, component_mm_per_s, power| {
+        contacts.for_each_moving(moving, powers, |place_mm, component_mm_per_s, power| {
             let (speed_mm_per_s, is_reverse) = match Component::of(component_mm_per_s) {
                 Component::Felt {
                     speed_mm_per_s,
@@ -248,7 +252,7 @@ impl TableEvaluator {
             if let Some(table) = &mut self.tables[spectra] {
                 let spot = self.segments.find(speed_mm_per_s);
                 let making = (&mut self.gains, &mut *counters);
-                add(power, table.at(points.nearest(place_mm), spot, making));
+                table.add_at(points.nearest(place_mm), spot, making, power);
             }
             n_felt += 1;
         });

@@ -85,16 +85,28 @@ impl RowTable {
         }
     }
 
-    /// The powers of a point at a speed; nodes that are missing are made, and counted.
-    #[inline]
-    pub(super) fn at(&mut self, point: usize, spot: Spot, making: Making<'_>) -> [f32; 2] {
+    /// Adds the powers of a point at a speed; nodes that are missing are made, and counted.
+    #[inline(always)]
+    #[expect(
+        clippy::inline_always,
+        reason = "a turning display does this for every contactor"
+    )]
+    pub(super) fn add_at(
+        &mut self,
+        point: usize,
+        spot: Spot,
+        making: Making<'_>,
+        power: &mut [f32; 2],
+    ) {
         if !self.has_both[spot.node] {
             self.make(spot.node, making);
         }
         let first = spot.node * self.n_points + point;
-        let nodes = &self.powers[first..=first + self.n_points];
-        let ([a, b], [c, d]) = (nodes[0], nodes[self.n_points]);
-        [a + (c - a) * spot.share, b + (d - b) * spot.share]
+        let nodes = [first, first + self.n_points].map(|at| self.powers.get(at));
+        if let [Some([a, b]), Some([c, d])] = nodes {
+            power[0] += a + (c - a) * spot.share;
+            power[1] += b + (d - b) * spot.share;
+        }
     }
 
     /// Makes a node and the next, as far as they are missing.

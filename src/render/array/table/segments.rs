@@ -5,21 +5,12 @@
 //! smooth; at the ends they jump, so both segments keep a value of their own there. Segments
 //! longer than 1/n octave are cut into equal parts.
 
-use crate::plan::whole_part;
+use crate::single;
 use selvedge_foundation::numerics::to_whole;
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, N_BINS};
-use selvedge_textile::tactile::{MAX_FREQUENCY_HZ, MIN_SPEED_MM_PER_S};
-
-/// The segment in which k bins sound.
-#[derive(Debug, Clone, Copy, Default)]
-struct Segment {
-    /// log₂ of its lowest speed.
-    start: f64,
-    /// Parts per octave, so that parts are one unit long.
-    parts_per_octave: f64,
-    n_parts: u32,
-    first_node: u32,
-}
+use selvedge_textile::tactile::{
+    MAX_FREQUENCY_HZ, MAX_SPEED_MM_PER_S, MIN_SPEED_MM_PER_S, n_audible_bins,
+};
 
 /// A node: its speed, and how many bins count there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,69 +22,191 @@ pub(super) struct Node {
 }
 
 /// Where a speed lies: between a node and the next, a share of the way.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Spot {
     pub(super) node: usize,
     pub(super) share: f32,
 }
 
-/// All segments, by the number of bins that sound; slot 0 is not used.
+/// From a node to the next of its segment.
+#[derive(Debug, Clone, Copy)]
+struct Part {
+    /// The lowest speed in it, mm/s, and the lowest beyond it.
+    start: f64,
+    end: f64,
+    /// How much of the way over log speed a speed lies along it, by the first, second and third
+    /// power of how far it is from the start.
+    share_by: [f32; 3],
+    node: u32,
+}
+
+/// All segments.
 #[derive(Debug, Clone)]
 pub(super) struct Segments {
-    segments: Box<[Segment; N_BINS + 1]>,
     nodes: Vec<Node>,
+    /// With rising speed, each beginning where the one before ends.
+    parts: Vec<Part>,
+    /// For every speed of a few leading bits the part in which it lies; no more than one other
+    /// begins before the next.
+    leading: Vec<u16>,
+    /// How many bits of a speed do not lead, and the leading ones of the lowest.
+    n_trailing: u32,
+    first: u64,
 }
 
 impl Segments {
     /// Segments with parts of at most 1/`per_octave` octave. Nodes are listed with rising speed,
     /// each segment's first and last included.
     pub(super) fn new(per_octave: u32) -> Self {
-        let mut segments = Box::new([Segment::default(); N_BINS + 1]);
-        let mut nodes = Vec::new();
+        let (mut nodes, mut parts) = (Vec::new(), Vec::new());
         for n_bins in (1..=N_BINS).rev() {
             let ends = [lowest_speed(n_bins), speed_at_1_khz(n_bins)];
-            let start = ends[0].log2();
             let octaves = (ends[1] / ends[0]).log2();
             let n_parts = n_parts(octaves, per_octave);
-            segments[n_bins] = Segment {
-                start,
-                parts_per_octave: f64::from(n_parts) / octaves,
-                n_parts,
-                first_node: u32::try_from(nodes.len()).unwrap_or(u32::MAX),
-            };
             for part in 0..=n_parts {
                 let share = f64::from(part) / f64::from(n_parts);
                 let is_upper_end = part == n_parts;
+                let speed_mm_per_s = if is_upper_end {
+                    ends[1]
+                } else {
+                    ends[0] * (octaves * share).exp2()
+                };
+                if !is_upper_end {
+                    let first = first_of(n_bins).filter(|_| part == 0);
+                    parts.push(Part {
+                        start: first.unwrap_or(speed_mm_per_s),
+                        end: f64::INFINITY,
+                        share_by: [0.0; 3],
+                        node: u32::try_from(nodes.len()).unwrap_or(u32::MAX),
+                    });
+                }
                 nodes.push(Node {
-                    speed_mm_per_s: if is_upper_end {
-                        ends[1]
-                    } else {
-                        ends[0] * (octaves * share).exp2()
-                    },
+                    speed_mm_per_s,
                     n_bins,
                     is_upper_end,
                 });
             }
         }
-        Self { segments, nodes }
+        let starts: Vec<f64> = parts.iter().map(|part| part.start).collect();
+        for (part, end) in parts.iter_mut().zip(&starts[1..]) {
+            part.end = *end;
+        }
+        for part in &mut parts {
+            part.bend(&nodes[part.node as usize..][..2]);
+        }
+        let (leading, n_trailing) = leading(&starts);
+        // Every part has one beside it to be compared with.
+        parts.extend(parts.last().copied());
+        Self {
+            nodes,
+            parts,
+            first: starts[0].to_bits() >> n_trailing,
+            leading,
+            n_trailing,
+        }
     }
 
     pub(super) fn nodes(&self) -> &[Node] {
         &self.nodes
     }
 
-    /// Where a speed that is felt lies.
-    #[inline]
+    /// Where a speed that is felt lies: by its leading bits to within two parts, then by one
+    /// comparison. No logarithm and no division.
+    #[inline(always)]
+    #[expect(
+        clippy::inline_always,
+        reason = "a turning display does this for every contactor"
+    )]
     pub(super) fn find(&self, speed_mm_per_s: f64) -> Spot {
-        let segment = &self.segments[n_audible(speed_mm_per_s)];
-        let at = (log2(speed_mm_per_s) - segment.start) * segment.parts_per_octave;
-        let part = whole_part(at.max(0.0)).min(segment.n_parts - 1);
-        let share = (at - f64::from(part)).clamp(0.0, 1.0);
+        let leading = (speed_mm_per_s.to_bits() >> self.n_trailing).wrapping_sub(self.first);
+        let at = usize::try_from(leading).ok();
+        let before = at.and_then(|at| self.leading.get(at));
+        let parts = self.parts.get(before.copied().map_or(0, usize::from)..);
+        let Some([part, next]) = parts.and_then(|parts| parts.first_chunk()) else {
+            return Spot::default();
+        };
+        let part = if speed_mm_per_s >= part.end {
+            next
+        } else {
+            part
+        };
         Spot {
-            node: (segment.first_node + part) as usize,
-            share: crate::single(share),
+            node: part.node as usize,
+            share: part.share(speed_mm_per_s),
         }
     }
+}
+
+impl Part {
+    /// Fits a cubic to the logarithm between two nodes: right at both ends, in slope too.
+    fn bend(&mut self, nodes: &[Node]) {
+        let [start, end] = [nodes[0].speed_mm_per_s, nodes[1].speed_mm_per_s];
+        let length = end - start;
+        let slope = length / (end / start).ln();
+        let slopes = [slope / start, slope / end];
+        self.start = start.max(self.start);
+        self.share_by = [
+            slopes[0] / length,
+            (3.0 - 2.0 * slopes[0] - slopes[1]) / length.powi(2),
+            (slopes[0] + slopes[1] - 2.0) / length.powi(3),
+        ]
+        .map(single);
+    }
+
+    /// How much of the way over log speed a speed lies along it.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a part of finding a speed")]
+    fn share(&self, speed_mm_per_s: f64) -> f32 {
+        let along = single(speed_mm_per_s - self.start);
+        let [first, second, third] = self.share_by;
+        (along * (first + along * (second + along * third))).min(1.0)
+    }
+}
+
+/// The lowest speed at which exactly so many bins sound, to the last bit; `None` of the slowest,
+/// which begin where nothing is felt below.
+fn first_of(n_bins: usize) -> Option<f64> {
+    if n_bins >= N_BINS {
+        return None;
+    }
+    let mut speed = speed_at_1_khz(n_bins + 1);
+    let is_audible = |speed: f64| n_audible_bins(speed) > n_bins;
+    while is_audible(speed) {
+        speed = speed.next_up();
+    }
+    while !is_audible(speed.next_down()) {
+        speed = speed.next_down();
+    }
+    Some(speed)
+}
+
+/// For every speed of a few leading bits the part in which it lies: of as few bits as leave no more
+/// than one part to begin before the next. And how many bits trail.
+fn leading(starts: &[f64]) -> (Vec<u16>, u32) {
+    const EXPONENT_BITS: u32 = 11;
+    let is_apart = |n_trailing: &u32| {
+        let mut cells = starts.iter().map(|start| start.to_bits() >> n_trailing);
+        let mut before = cells.next();
+        cells.all(|cell| before.replace(cell) != Some(cell))
+    };
+    let n_trailing = (0..u64::BITS - EXPONENT_BITS)
+        .rev()
+        .find(is_apart)
+        .unwrap_or(0);
+    let first = starts[0].to_bits() >> n_trailing;
+    let last = MAX_SPEED_MM_PER_S.to_bits() >> n_trailing;
+    let mut part = 0;
+    let lowest = |cell: u64| f64::from_bits(cell << n_trailing);
+    let cells = (first..=last).map(|cell| {
+        while starts
+            .get(part + 1)
+            .is_some_and(|next| *next <= lowest(cell))
+        {
+            part += 1;
+        }
+        u16::try_from(part).unwrap_or(u16::MAX)
+    });
+    (cells.collect(), n_trailing)
 }
 
 /// The speed at which bin k sounds at 1 kHz, mm/s.
@@ -115,50 +228,15 @@ fn n_parts(octaves: f64, per_octave: u32) -> u32 {
     to_whole((octaves * f64::from(per_octave) - 1e-9).ceil().max(1.0))
 }
 
-/// How many bins sound at a speed that is felt: [`selvedge_textile::tactile::n_audible_bins`]
-/// without a loop.
-#[inline]
-fn n_audible(speed_mm_per_s: f64) -> usize {
-    let spacing_hz = speed_mm_per_s * BIN_SPACING_PER_MM;
-    let quotient = whole_part((MAX_FREQUENCY_HZ / spacing_hz).min(N_BINS as f64));
-    // The quotient may be one off either way: the comparison that defines the limit decides.
-    let is_audible = |k: u32| spacing_hz * f64::from(k) < MAX_FREQUENCY_HZ;
-    let more = u32::from(is_audible(quotient + 1));
-    let less = u32::from(!is_audible(quotient));
-    ((quotient + more - less) as usize).clamp(1, N_BINS)
-}
-
-/// log₂ of a positive normal number, within 1e-10: the exponent, and
-/// `ln((1 + s)/(1 − s)) = 2 (s + s³/3 + s⁵/5 + …)` for the mantissa in √½…√2.
-#[inline]
-pub(super) fn log2(x: f64) -> f64 {
-    const SQRT_HALF_BITS: u64 = std::f64::consts::FRAC_1_SQRT_2.to_bits();
-    const SCALE: f64 = 2.0 * std::f64::consts::LOG2_E;
-    let exponent = x.to_bits().wrapping_sub(SQRT_HALF_BITS).cast_signed() >> 52;
-    let mantissa = f64::from_bits(x.to_bits().wrapping_sub((exponent << 52).cast_unsigned()));
-    let s = (mantissa - 1.0) / (mantissa + 1.0);
-    let q = s * s;
-    let q2 = q * q;
-    // Pairs instead of a chain: half of the waiting for one product after another.
-    let pairs = [
-        1.0 + q * (1.0 / 3.0),
-        1.0 / 5.0 + q * (1.0 / 7.0),
-        1.0 / 9.0 + q * (1.0 / 11.0),
-    ];
-    let even = pairs[0] + q2 * (pairs[1] + q2 * pairs[2]);
-    exponent as f64 + SCALE * s * even
-}
-
 /// Whether a speed is one that a table covers.
 #[cfg(test)]
 fn is_felt(speed_mm_per_s: f64) -> bool {
-    (MIN_SPEED_MM_PER_S..selvedge_textile::tactile::MAX_SPEED_MM_PER_S).contains(&speed_mm_per_s)
+    (MIN_SPEED_MM_PER_S..MAX_SPEED_MM_PER_S).contains(&speed_mm_per_s)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use selvedge_textile::tactile::n_audible_bins;
 
     fn speeds_around_every_end() -> Vec<f64> {
         let ends = (1..=N_BINS).map(speed_at_1_khz).chain([MIN_SPEED_MM_PER_S]);
@@ -167,33 +245,8 @@ mod tests {
     }
 
     #[test]
-    fn the_fast_logarithm_is_within_a_ten_billionth() {
-        let mut x = 1e-300;
-        while x < 1e300 {
-            assert!(
-                (log2(x) - x.log2()).abs() < 1e-10 * (1.0 + 1e-3 * x.log2().abs()),
-                "{x}"
-            );
-            x *= 1.000_7;
-        }
-        assert_eq!([log2(1.0), log2(2.0), log2(0.25)], [0.0, 1.0, -2.0]);
-    }
-
-    #[test]
-    fn the_segment_is_that_of_the_bins_that_sound() {
-        let mut v = MIN_SPEED_MM_PER_S;
-        while is_felt(v) {
-            assert_eq!(n_audible(v), n_audible_bins(v), "{v}");
-            v *= 1.000_31;
-        }
-        for v in speeds_around_every_end() {
-            assert_eq!(n_audible(v), n_audible_bins(v), "{v}");
-        }
-    }
-
-    #[test]
     fn a_speed_lies_between_its_nodes() {
-        for per_octave in [24, 48, 64] {
+        for per_octave in [24, 48, 64, 384] {
             let segments = Segments::new(per_octave);
             for v in speeds_around_every_end()
                 .into_iter()
@@ -207,7 +260,7 @@ mod tests {
                 );
                 let log = low.speed_mm_per_s.log2()
                     + f64::from(spot.share) * (high.speed_mm_per_s / low.speed_mm_per_s).log2();
-                assert!((log - v.log2()).abs() < 2e-9, "{v} mm/s: {spot:?}");
+                assert!((log - v.log2()).abs() < 1e-8, "{v} mm/s: {spot:?}");
                 let octaves = (high.speed_mm_per_s / low.speed_mm_per_s).log2();
                 assert!(octaves < 1.000_001 / f64::from(per_octave), "{octaves}");
             }
