@@ -25,7 +25,7 @@ const RANGES: [Range; 8] = [
     ("stiffness_n_per_m", [10.0, 1e9], Spaced::Log),
     ("damping_ratio", [0.0, 2.0], Spaced::Even),
     ("rate_hz", [250.0, 4e4], Spaced::Log),
-    ("wavelength_mm", [0.1, 20.0], Spaced::Log),
+    ("wavelength_mm", [0.51, 20.0], Spaced::Log),
     ("height_um", [0.1, 300.0], Spaced::Log),
     ("n_shorter", [1.0, 40.0], Spaced::Even),
     ("range_db", [0.0, 60.0], Spaced::Even),
