@@ -44,7 +44,7 @@ display() {
 # Whoever has settings is not shown the tour; `is_first=1` starts without any.
 start() {
   mkdir -p "$XDG_CONFIG_HOME/selvedge"
-  [ -n "${is_first:-}" ] || [ -e "$XDG_CONFIG_HOME/selvedge/settings.toml" ] || : > "$XDG_CONFIG_HOME/selvedge/settings.toml"
+  [ -n "${is_first:-}" ] || [ -e "$XDG_CONFIG_HOME/selvedge/settings.toml" ] || echo 'theme = "system"' > "$XDG_CONFIG_HOME/selvedge/settings.toml"
   "$selvedge" "$@" > "$work/out.txt" 2> "$work/err.txt" &
   program=$!
   window=

@@ -118,7 +118,10 @@ changes() { [ "$(differ "$1" "$2")" -gt "$3" ]; }
 stays() { ! changes "$@"; }
 
 # How far a bar of the stage is filled, pixels: those along its middle that are not as its right end is.
-bar() { import -window root -crop "300x1+1060+$1" +repage txt:- | awk 'NR > 1 { of[NR] = $3 } END { for (k in of) n += of[k] != of[NR]; print n + 0 }'; }
+bar() {
+  import -window root -crop "300x1+1060+$1" +repage txt:- |
+    awk 'NR > 1 { of[NR] = $3 } END { for (k in of) n += of[k] != of[NR]; print n + 0 }'
+}
 both_bars() { [ "$(bar 341)" -ge "$1" ] && [ "$(bar 420)" -ge "$1" ]; }
 no_bars() { [ "$(bar 341)" = 0 ] && [ "$(bar 420)" = 0 ]; }
 
@@ -281,7 +284,7 @@ felt=$(awk -F , '
   }
   END { print (both > 30 && second > 20 && last == 0), both, second, last }' "$ticks")
 [ "${felt%% *}" = 1 ] || fail "ticks of both, ticks of the second alone, last: $felt"
-# Columns 3, 4 and 9 to 11: where the first and the second display are, mm, and how fast the second is, while it is held.
+# Columns 3, 4 and 9 to 11: where the first and the second display are, mm, and how fast the second is while held.
 awk -F , 'NR > 1 && $11 != "" && ($9 < 110 || $3 > 105 || $10 > $4 - 100) { exit 1 }' "$ticks" ||
   fail "the second display is not where its finger is"
 
@@ -356,5 +359,6 @@ wait $!
 finger end 1
 sleep 0.5
 stop
-visit | awk -F , '{ exit !($5 == "touch" && $8 >= 1 && $9 + $10 + $11 == 0 && $12 == 1) }' || fail "a finger on the first cloth: $(visit)"
+visit | awk -F , '{ exit !($5 == "touch" && $8 >= 1 && $9 + $10 + $11 == 0 && $12 == 1) }' ||
+  fail "a finger on the first cloth: $(visit)"
 [ -z "$is_wrong" ]

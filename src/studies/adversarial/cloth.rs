@@ -1,7 +1,7 @@
 //! A hanging cloth: whatever its yarns, weight and step are and whatever is done with it, it has no
 //! energy from nowhere, comes out in numbers, and a refusal names its limit.
 
-use super::{Field, Range, Spaced, Target, numbers};
+use super::field::{Field, Range, Spaced, Target, numbers};
 use crate::ReportError;
 use crate::drape::{Deed, held};
 use selvedge_drape::Integrator;

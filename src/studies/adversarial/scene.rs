@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use super::{Field, Range, Spaced, Target};
+use super::field::{Field, Range, Spaced, Target, numbers};
 use crate::{ReportError, textiles};
 use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation, Velocity};
 use selvedge_foundation::numerics::{Grid, Random};
@@ -96,7 +96,7 @@ fn straight_over_a_crossing(case: &mut [f64], random: &mut Random) {
 }
 
 fn share(case: &[f64], method: Method, is_areal: bool) -> Result<f64, ReportError> {
-    Case(super::numbers(case)?).share(method, is_areal)
+    Case(numbers(case)?).share(method, is_areal)
 }
 
 impl Case {

@@ -1,7 +1,7 @@
 //! An electrovibration screen: whatever friction and settings are, the voltage stays within its
 //! limits.
 
-use super::{BROKEN, Field, Range, Spaced, Target, numbers};
+use super::field::{BROKEN, Field, Range, Spaced, Target, numbers};
 use crate::ReportError;
 use selvedge_render::electrovibration::{Carrier, Electrovibration};
 

@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{BROKEN, Field, Range, Spaced, Target, numbers};
+use super::field::{BROKEN, Field, Range, Spaced, Target, numbers};
 use crate::ReportError;
 use crate::stylus::relief_of;
 use selvedge_foundation::numerics::Grid;

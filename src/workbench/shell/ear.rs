@@ -139,6 +139,8 @@ impl Ear {
                 return;
             }
             WindowEvent::Touch(touch) => return self.touched(now, window, touch),
+            // A part of the movement before it, which X11 tells apart.
+            WindowEvent::AxisMotion { .. } => return,
             _ => {}
         }
         // Movements come in a row: another event ends it.

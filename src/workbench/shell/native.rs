@@ -124,12 +124,17 @@ fn open_window(
         }),
         &event_loop,
     );
-    let ear = Ear::new(shared, Instant::now());
+    let ear = Ear::new(Rc::clone(&shared), Instant::now());
     let outcome = event_loop.run_app(&mut Stamping { app, ear });
     if let Some(error) = failure.borrow_mut().take() {
         return Err(error);
     }
-    outcome.map_err(|error| AppError::NoGraphics(error.to_string()))
+    outcome.map_err(|error| AppError::NoGraphics(error.to_string()))?;
+    // The toolkit ends without a word where it gets no graphics.
+    if shared.borrow().is_none() {
+        return Err(AppError::NoGraphics("it gives no OpenGL".to_owned()));
+    }
+    Ok(())
 }
 
 /// Lets the C library keep what a frame frees for the next one.

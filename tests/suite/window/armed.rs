@@ -1,7 +1,5 @@
 //! What shows that a device is armed, and what stops it.
 
-use eframe::egui::Event;
-
 use super::*;
 
 /// An armed emulator in a window.
@@ -52,16 +50,16 @@ fn an_armed_window_is_framed_in_red_and_a_stopped_one_is_not() {
 fn a_window_that_loses_the_focus_stops_the_device_only_if_it_is_asked_to() {
     let folder = Folder::new("armed-focus");
     let mut harness = armed(&folder);
-    harness.event(Event::WindowFocused(false));
+    harness.input_mut().focused = false;
     harness.step();
-    harness.event(Event::WindowFocused(true));
+    harness.input_mut().focused = true;
     harness.step();
     assert!(harness.state().is_armed() && !harness.state().is_stopped());
     let words = "All off when the focus is lost";
     harness.get_by_label(words).click_accesskit();
     harness.step();
     harness.step();
-    harness.event(Event::WindowFocused(false));
+    harness.input_mut().focused = false;
     wait(&mut harness, |bench| {
         bench.is_stopped() && !bench.is_armed()
     });

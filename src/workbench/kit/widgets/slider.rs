@@ -115,7 +115,8 @@ fn slid(ui: &Ui, response: &Response, rail: Rect, scale: &Scale, value: f64) -> 
         let moved = f64::from(response.drag_delta().x / span(rail).width());
         return Some(scale.value_at(scale.share_of(value) + FINE * moved));
     }
-    if (response.dragged() || response.clicked() || response.is_pointer_button_down_on()) && !fine {
+    let is_moved = response.dragged() || response.drag_stopped() || response.clicked();
+    if (is_moved || response.is_pointer_button_down_on()) && !fine {
         let pointer = response.interact_pointer_pos()?;
         let zero_x = x_of(rail, scale, 0.0);
         if (pointer.x - zero_x).abs() < SNAP {

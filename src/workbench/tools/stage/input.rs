@@ -1,6 +1,8 @@
 //! What the public may do with pointer, fingers and keys: everything else never reaches the stage.
 
-use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, TouchPhase, Ui};
+use eframe::egui::{
+    Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, TouchId, TouchPhase, Ui,
+};
 
 use crate::kit::fingers::FingerRings;
 use crate::tools::stage::pin::Access;
@@ -74,6 +76,19 @@ pub(crate) struct Senses {
     input: Option<&'static str>,
     pub(crate) has_keyboard: bool,
     moved_s: f64,
+    /// Fingers that are down.
+    fingers: Vec<Finger>,
+    /// How far one that feels moved in this frame, points.
+    stroked: f32,
+}
+
+/// A finger that is down.
+#[derive(Debug, Clone, Copy)]
+struct Finger {
+    id: TouchId,
+    at: Pos2,
+    /// Whether it came down on what is felt.
+    feels: bool,
 }
 
 /// What the events of a frame say beside pointer and buttons.
@@ -81,6 +96,8 @@ pub(crate) struct Senses {
 pub(crate) struct Heard {
     /// Where fingers came down, the first or others.
     pub(crate) touched: Vec<Pos2>,
+    /// Whether one of them came down on what is felt.
+    pub(crate) feels: bool,
     /// Whether the operator's page is asked for.
     pub(crate) asks_operator: bool,
     pub(crate) escapes: bool,
@@ -89,20 +106,22 @@ pub(crate) struct Heard {
 }
 
 impl Senses {
-    /// Takes in the events of a frame, and where fingers are that hold no display.
-    pub(crate) fn take(&mut self, ui: &Ui, strays: &[Pos2], now_s: f64) -> Heard {
+    /// Takes in the events of a frame, where fingers are that hold no display, and the part of the
+    /// screen that is felt.
+    pub(crate) fn take(
+        &mut self,
+        ui: &Ui,
+        (strays, ground): (&[Pos2], Option<Rect>),
+        now_s: f64,
+    ) -> Heard {
         let mut heard = Heard::default();
         self.rings.take(strays, now_s);
+        self.stroked = 0.0;
         ui.input(|input| {
             for event in &input.events {
                 match event {
-                    Event::Touch {
-                        phase: TouchPhase::Start,
-                        pos,
-                        ..
-                    } => {
-                        self.input = Some("touch");
-                        heard.touched.push(*pos);
+                    Event::Touch { id, phase, pos, .. } => {
+                        self.finger((*id, *phase, *pos), ground, &mut heard);
                     }
                     Event::Key {
                         key,
@@ -129,6 +148,50 @@ impl Senses {
             }
         });
         heard
+    }
+
+    /// A finger comes, moves or leaves.
+    fn finger(
+        &mut self,
+        (id, phase, at): (TouchId, TouchPhase, Pos2),
+        ground: Option<Rect>,
+        heard: &mut Heard,
+    ) {
+        let known = self.fingers.iter().position(|finger| finger.id == id);
+        match (phase, known) {
+            (TouchPhase::Start, _) => {
+                self.input = Some("touch");
+                heard.touched.push(at);
+                let feels = ground.is_some_and(|ground| ground.contains(at));
+                heard.feels |= feels;
+                self.fingers.retain(|finger| finger.id != id);
+                self.fingers.push(Finger { id, at, feels });
+            }
+            (TouchPhase::Move, Some(nth)) => {
+                let finger = &mut self.fingers[nth];
+                let before = std::mem::replace(&mut finger.at, at);
+                if finger.feels {
+                    self.stroked += before.distance(at);
+                }
+            }
+            (TouchPhase::End | TouchPhase::Cancel, Some(nth)) => drop(self.fingers.remove(nth)),
+            _ => {}
+        }
+    }
+
+    /// Whether a finger is down.
+    pub(crate) fn has_fingers(&self) -> bool {
+        !self.fingers.is_empty()
+    }
+
+    /// Whether one came down on what is felt.
+    pub(crate) fn feels(&self) -> bool {
+        self.fingers.iter().any(|finger| finger.feels)
+    }
+
+    /// How far fingers that feel moved in this frame, points.
+    pub(crate) fn stroked(&self) -> f32 {
+        self.stroked
     }
 
     /// What was used last.

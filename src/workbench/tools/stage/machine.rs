@@ -89,7 +89,7 @@ impl Machine {
         self.now_s = now_s;
         self.device = device;
         if let Some(visit) = &mut self.visit {
-            visit.was_armed |= device == DeviceState::Armed;
+            visit.was_armed |= device == DeviceState::Armed && self.voltage.has_asked();
             visit.count((now_s, passed_s), hand);
         }
         let held_s = self.restart_since_s.map_or(0.0, |since_s| now_s - since_s);

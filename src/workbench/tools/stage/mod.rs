@@ -32,7 +32,7 @@ mod tests;
 mod view;
 mod voltage;
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use eframe::egui::{CursorIcon, RawInput, Rect, Theme, Ui};
 
@@ -78,7 +78,14 @@ pub(crate) struct Stage {
     may_close: bool,
     /// How far its clock is ahead of the toolkit's: in pictures, s.
     ahead_s: f64,
+    /// The toolkit's clock at the last frame, s, and when that was.
+    frame: (f64, Instant),
+    /// Whether a frame was drawn since the last look at the clock.
+    was_drawn: bool,
 }
+
+/// Between two looks at a stage that nobody sees: what is armed is not forgotten.
+const UNSEEN: Duration = Duration::from_millis(250);
 
 impl Stage {
     /// The stage of a bench whose scene has four textiles.
@@ -111,7 +118,26 @@ impl Stage {
             drawn: Drawn::default(),
             may_close: false,
             ahead_s: 0.0,
+            frame: (0.0, Instant::now()),
+            was_drawn: true,
         }
+    }
+
+    /// Its clock. A window that is not shown gets no frames, and the toolkit's clock stands still:
+    /// then it goes on from there, and nobody's hand is on the screen.
+    fn now_s(&mut self, bench: &Bench) -> f64 {
+        if std::mem::take(&mut self.was_drawn) {
+            self.frame = (bench.ctx.input(|input| input.time), Instant::now());
+        } else {
+            self.hand = Hand::default();
+        }
+        let unseen_s = self.frame.1.elapsed().as_secs_f64();
+        let since_s = if unseen_s < UNSEEN.as_secs_f64() {
+            0.0
+        } else {
+            unseen_s
+        };
+        self.frame.0 + since_s + self.ahead_s
     }
 
     /// Everything off; the screen goes on.
@@ -181,7 +207,7 @@ impl Stage {
         {
             self.stop(bench);
         }
-        self.press(ui);
+        self.press(ui, heard);
         let shown = shown::Shown {
             machine: &self.machine,
             scene: context.scene,
@@ -222,19 +248,25 @@ impl Stage {
     }
 
     /// Something comes down on what is felt: answered in this very frame.
-    fn press(&mut self, ui: &Ui) {
+    fn press(&mut self, ui: &Ui, heard: &Heard) {
         let (is_pressed, is_down, at) = ui.input(|input| {
             let pointer = &input.pointer;
             let at = pointer.interact_pos();
             (pointer.primary_pressed(), pointer.primary_down(), at)
         });
-        if !is_down {
-            self.is_down_on_ground = false;
-        }
         let is_on_ground = self
             .ground_of(ui)
             .is_some_and(|ground| at.is_some_and(|at| ground.contains(at)));
-        if is_pressed && is_on_ground {
+        // Of fingers any may feel: the toolkit makes the first of them its pointer, and that may
+        // be a hand that rests beside the cloths.
+        let comes_down = if self.senses.has_fingers() {
+            self.is_down_on_ground = self.senses.feels();
+            heard.feels
+        } else {
+            self.is_down_on_ground &= is_down;
+            is_pressed && is_on_ground
+        };
+        if comes_down {
             self.is_down_on_ground = true;
             self.machine.act(Act::Touch, self.senses.input());
         }
@@ -266,7 +298,11 @@ impl Stage {
             self.hand = Hand::default();
             return;
         };
-        let moved = ui.input(|input| input.pointer.delta().length());
+        let moved = if self.senses.has_fingers() {
+            self.senses.stroked()
+        } else {
+            ui.input(|input| input.pointer.delta().length())
+        };
         self.hand.is_down = self.is_down_on_ground;
         if self.is_down_on_ground {
             self.hand.moved_mm += f64::from(moved) / view.points_per_mm.max(1e-6);
@@ -289,7 +325,8 @@ impl PublicFace for Stage {
     }
 
     fn logic(&mut self, bench: &mut Bench) {
-        let now_s = bench.ctx.input(|input| input.time) + self.ahead_s;
+        let now_s = self.now_s(bench);
+        bench.ctx.request_repaint_after(UNSEEN);
         let device = self.device_state(bench);
         let was_permitted = self.machine.voltage.is_permitted();
         self.lock.step(now_s);
@@ -309,8 +346,11 @@ impl PublicFace for Stage {
     }
 
     fn ui(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>) {
+        self.was_drawn = true;
         let now_s = self.machine.now_s();
-        let heard = self.senses.take(ui, &context.bench.pointer.strays, now_s);
+        let ground = self.ground_of(ui);
+        let strays = &context.bench.pointer.strays;
+        let heard = self.senses.take(ui, (strays, ground), now_s);
         if heard.asks_operator {
             self.open_lock(context.bench);
         } else if heard.escapes && self.lock.access() == Access::Closed && self.machine.is_armed() {

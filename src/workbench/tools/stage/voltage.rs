@@ -56,6 +56,11 @@ impl Voltage {
         self.is_permitted
     }
 
+    /// Whether this visit asked for high voltage.
+    pub(crate) fn has_asked(&self) -> bool {
+        self.asked_s.is_some()
+    }
+
     /// The button is held from now on, or no longer.
     pub(crate) fn hold(&mut self, now_s: f64, is_held: bool) {
         if !is_held {

@@ -10,6 +10,10 @@ use crate::tools::workspace::{arrange, tools};
 /// Shows the menu while it is open. What it is about is settled when it opens.
 pub(crate) fn show(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {
     let id = stage.response.id.with("menu is about");
+    // A finger that rests while it feels asks for nothing.
+    if !stage.arranges() && stage.response.long_touched() {
+        return;
+    }
     if stage.response.secondary_clicked()
         && let Some(at) = stage.response.interact_pointer_pos()
     {

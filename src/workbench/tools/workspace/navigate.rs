@@ -52,10 +52,12 @@ fn take_wheel(ui: &Ui, stage: &Stage<'_>, commands: &mut Commands) {
         let is_turning = input.modifiers.alt;
         let notches = input.events.iter().filter_map(notches).sum::<f64>();
         let scrolled = input.smooth_scroll_delta().y;
+        // Two fingers that feel hold two displays; they do not magnify.
+        let feels = !stage.arranges() && input.multi_touch().is_some();
         (
             if is_turning { notches } else { 0.0 },
             if is_turning { 0.0 } else { scrolled },
-            input.zoom_delta(),
+            if feels { 1.0 } else { input.zoom_delta() },
             input.pointer.latest_pos(),
         )
     });

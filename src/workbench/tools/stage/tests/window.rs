@@ -56,6 +56,16 @@ fn button(at: Pos2, pressed: bool) -> Event {
     }
 }
 
+fn finger(id: u64, phase: TouchPhase, pos: Pos2) -> Event {
+    Event::Touch {
+        device_id: TouchDeviceId(1),
+        id: TouchId(id),
+        phase,
+        pos,
+        force: None,
+    }
+}
+
 /// Strokes to and fro around a place; the pointer stays down if `stays`.
 fn stroke(window: &mut Headless, at: Pos2, n_frames: u8, stays: bool) {
     window.events.push(Event::PointerMoved(at));
@@ -169,6 +179,43 @@ fn a_touch_is_answered_in_its_frame_and_felt_while_it_is_down() {
         "the first cloth is above on the left"
     );
     assert!(live.dots.iter().any(|dot| dot.amplitude_um[0] > 0.1));
+}
+
+#[test]
+fn a_hand_that_rests_beside_the_cloths_keeps_nobody_from_feeling() {
+    let mut window = opened(with_pin(), FULL_HD, 1.0);
+    let ground = square(&mut window);
+    let (beside, at) = (
+        Pos2::new(20.0, ground.center().y),
+        ground.center() + vec2(-150.0, -150.0),
+    );
+    // The first finger is the toolkit's pointer too.
+    window.events.extend([
+        finger(1, TouchPhase::Start, beside),
+        Event::PointerMoved(beside),
+        button(beside, true),
+    ]);
+    window.pass(3);
+    assert!(matches!(
+        stage(&mut window).machine.phase(),
+        Phase::Watching
+    ));
+    window.events.push(finger(2, TouchPhase::Start, at));
+    window.pass(1);
+    assert!(matches!(
+        stage(&mut window).machine.phase(),
+        Phase::Touching
+    ));
+    window
+        .events
+        .push(finger(2, TouchPhase::Move, at + vec2(30.0, 0.0)));
+    window.pass(1);
+    let stage_of = stage(&mut window);
+    assert!(stage_of.hand.is_down && stage_of.hand.moved_mm > 1.0);
+    // The one lifts, and the other still rests.
+    window.events.push(finger(2, TouchPhase::Cancel, at));
+    window.pass(1);
+    assert!(!stage(&mut window).hand.is_down);
 }
 
 #[test]
@@ -345,13 +392,7 @@ fn high_voltage_is_on_only_by_permission_and_a_second_of_holding_and_off_in_time
     wait(&mut window, is_armed, "armed again");
     window.pass(1);
     let stop = stage(&mut window).drawn.stop.unwrap().center();
-    window.events.push(Event::Touch {
-        device_id: TouchDeviceId(1),
-        id: TouchId(2),
-        phase: TouchPhase::Start,
-        pos: stop,
-        force: None,
-    });
+    window.events.push(finger(2, TouchPhase::Start, stop));
     window.pass(2);
     assert!(matches!(
         stage(&mut window).machine.phase(),
@@ -363,6 +404,31 @@ fn high_voltage_is_on_only_by_permission_and_a_second_of_holding_and_off_in_time
         |window| !window.workbench.is_stopped() && window.workbench.bench.live.play.is_playing,
         "the ghost again",
     );
+}
+
+#[test]
+fn what_is_armed_is_off_in_time_where_the_window_is_not_shown_any_more() {
+    let mut window = opened(with_pin(), FULL_HD, 1.0);
+    window.dispatch(DeviceCommand::ConnectEmulator);
+    wait(&mut window, |window| window.workbench.is_ready(), "ready");
+    stage(&mut window).machine.voltage.permit(true);
+    window.press(Modifiers::NONE, Key::Num1);
+    window.pass(2);
+    let feel = find(&mut window, "Press to feel");
+    hold(&mut window, feel, 44);
+    wait(&mut window, is_armed, "armed");
+    // A window that is not shown thinks, but draws no frame, and its clock stands still.
+    let ctx = window.ctx.clone();
+    window.workbench.stage_logic(&ctx);
+    assert!(stage(&mut window).machine.is_armed());
+    let (_, seen) = &mut stage(&mut window).frame;
+    *seen = seen.checked_sub(Duration::from_secs(21)).unwrap();
+    let patience = Instant::now() + Duration::from_mins(1);
+    while is_armed(&mut window) {
+        assert!(Instant::now() < patience, "never off");
+        window.workbench.stage_logic(&ctx);
+        thread::sleep(Duration::from_millis(3));
+    }
 }
 
 #[test]
