@@ -130,6 +130,7 @@ impl Stage {
             self.frame = (bench.ctx.input(|input| input.time), Instant::now());
         } else {
             self.hand = Hand::default();
+            bench.ctx.request_repaint_after(UNSEEN);
         }
         let unseen_s = self.frame.1.elapsed().as_secs_f64();
         let since_s = if unseen_s < UNSEEN.as_secs_f64() {
@@ -326,7 +327,6 @@ impl PublicFace for Stage {
 
     fn logic(&mut self, bench: &mut Bench) {
         let now_s = self.now_s(bench);
-        bench.ctx.request_repaint_after(UNSEEN);
         let device = self.device_state(bench);
         let was_permitted = self.machine.voltage.is_permitted();
         self.lock.step(now_s);
