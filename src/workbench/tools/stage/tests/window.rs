@@ -423,12 +423,13 @@ fn what_is_armed_is_off_in_time_where_the_window_is_not_shown_any_more() {
     assert!(stage(&mut window).machine.is_armed());
     let (_, seen) = &mut stage(&mut window).frame;
     *seen = seen.checked_sub(Duration::from_secs(21)).unwrap();
-    let patience = Instant::now() + Duration::from_mins(1);
-    while is_armed(&mut window) {
-        assert!(Instant::now() < patience, "never off");
-        window.workbench.stage_logic(&ctx);
+    window.workbench.stage_logic(&ctx);
+    // The engine is stepped by frames here: far fewer of them than 20 s.
+    for _ in 0..200 {
+        window.pass(1);
         thread::sleep(Duration::from_millis(3));
     }
+    assert!(!is_armed(&mut window), "off before it is seen again");
 }
 
 #[test]
