@@ -8,14 +8,6 @@
 # the two displays of a scene at the bench; and all of it at twice the size.
 . "$(dirname "$0")/../lib.sh"
 
-# Wrong, but what comes after it can be told all the same.
-expect() {
-  "${@:2}" && return
-  echo "$story: $1"
-  is_wrong=1
-}
-is_wrong=
-
 touch_display() {
   cat > "$work/xorg.conf" << CONF
 Section "ServerLayout"
@@ -224,7 +216,7 @@ finger begin 2 440 520
 rub 3 2 440 520 &
 sleep 1.5
 shot hand-beside
-expect "who rests a hand beside the cloths keeps everybody from feeling" await 1 both_bars 5
+await 1 both_bars 5 || fail "who rests a hand beside the cloths keeps everybody from feeling"
 wait $!
 finger end 2
 finger end 1
@@ -345,7 +337,7 @@ shot apart
 finger end 1
 finger end 2
 sleep 0.4
-expect "two fingers that feel magnify the workspace" stays ruler ruler-later 400
+stays ruler ruler-later 400 || fail "two fingers that feel magnify the workspace"
 stop
 
 echo "$story: at twice the size"
@@ -361,4 +353,3 @@ sleep 0.5
 stop
 visit | awk -F , '{ exit !($5 == "touch" && $8 >= 1 && $9 + $10 + $11 == 0 && $12 == 1) }' ||
   fail "a finger on the first cloth: $(visit)"
-[ -z "$is_wrong" ]
