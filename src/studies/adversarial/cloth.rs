@@ -1,7 +1,7 @@
 //! A hanging cloth: whatever its yarns, weight and step are and whatever is done with it, it has no
 //! energy from nowhere, comes out in numbers, and a refusal names its limit.
 
-use super::field::{Field, Range, Spaced, Target, numbers};
+use super::field::{Field, Range, Spaced, numbers, target};
 use crate::ReportError;
 use crate::drape::{Deed, held};
 use selvedge_drape::Integrator;
@@ -25,21 +25,11 @@ pub(super) const FIELD: Field = Field {
     ranges: &RANGES,
     lead: None,
     targets: &[
-        Target {
-            name: "explicit",
-            one_in: 4,
-            share: |case| share(case, Integrator::Explicit),
-        },
-        Target {
-            name: "implicit euler",
-            one_in: 8,
-            share: |case| share(case, Integrator::ImplicitEuler),
-        },
-        Target {
-            name: "bdf2",
-            one_in: 8,
-            share: |case| share(case, Integrator::Bdf2),
-        },
+        target("explicit", 4, |case| share(case, Integrator::Explicit)),
+        target("implicit euler", 8, |case| {
+            share(case, Integrator::ImplicitEuler)
+        }),
+        target("bdf2", 8, |case| share(case, Integrator::Bdf2)),
     ],
 };
 

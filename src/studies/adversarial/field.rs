@@ -41,6 +41,19 @@ pub(super) struct Target {
     pub(super) share: fn(&[f64]) -> Result<f64, ReportError>,
 }
 
+/// A method by its name, how seldom it is tried, and its share.
+pub(super) const fn target(
+    name: &'static str,
+    one_in: usize,
+    share: fn(&[f64]) -> Result<f64, ReportError>,
+) -> Target {
+    Target {
+        name,
+        one_in,
+        share,
+    }
+}
+
 impl Target {
     /// The share of a case, in what a file can hold.
     pub(super) fn share_of(&self, case: &[f64]) -> Result<f64, ReportError> {

@@ -70,7 +70,7 @@ const NOTES: [&str; 4] = [
 
 #[cfg(test)]
 mod tests {
-    use super::field::Target;
+    use super::field::{Target, target};
     use super::*;
 
     #[test]
@@ -118,11 +118,7 @@ mod tests {
         let case = field.anywhere(&mut Random::new(1));
         let broken = field.row(&field.targets[1], "found", (&case, 1.01));
         assert_eq!(broken.is_kept(), Some(false));
-        let nothing = Target {
-            name: "nothing",
-            one_in: 1,
-            share: |_| Ok(f64::NAN),
-        };
+        let nothing = target("nothing", 1, |_| Ok(f64::NAN));
         assert!(nothing.share_of(&case).unwrap() > 1.0);
     }
 }

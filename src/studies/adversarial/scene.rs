@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use super::field::{Field, Range, Spaced, Target, numbers};
+use super::field::{Field, Range, Spaced, numbers, target};
 use crate::{ReportError, textiles};
 use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation, Velocity};
 use selvedge_foundation::numerics::{Grid, Random};
@@ -57,31 +57,11 @@ pub(super) const FIELD: Field = Field {
     ranges: &RANGES,
     lead: Some(straight_over_a_crossing),
     targets: &[
-        Target {
-            name: "reference",
-            one_in: 1,
-            share: |case| share(case, Method::Reference, false),
-        },
-        Target {
-            name: "banded",
-            one_in: 1,
-            share: |case| share(case, Method::Banded, false),
-        },
-        Target {
-            name: "table",
-            one_in: 1,
-            share: |case| share(case, Method::Table, false),
-        },
-        Target {
-            name: "areal banded",
-            one_in: 6,
-            share: |case| share(case, Method::Banded, true),
-        },
-        Target {
-            name: "areal table",
-            one_in: 6,
-            share: |case| share(case, Method::Table, true),
-        },
+        target("reference", 1, |case| share(case, Method::Reference, false)),
+        target("banded", 1, |case| share(case, Method::Banded, false)),
+        target("table", 1, |case| share(case, Method::Table, false)),
+        target("areal banded", 6, |case| share(case, Method::Banded, true)),
+        target("areal table", 6, |case| share(case, Method::Table, true)),
     ],
 };
 

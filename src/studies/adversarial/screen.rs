@@ -1,7 +1,7 @@
 //! An electrovibration screen: whatever friction and settings are, the voltage stays within its
 //! limits.
 
-use super::field::{BROKEN, Field, Range, Spaced, Target, numbers};
+use super::field::{BROKEN, Field, Range, Spaced, numbers, target};
 use crate::ReportError;
 use selvedge_render::electrovibration::{Carrier, Electrovibration};
 
@@ -20,16 +20,8 @@ pub(super) const FIELD: Field = Field {
     ranges: &RANGES,
     lead: None,
     targets: &[
-        Target {
-            name: "square carrier",
-            one_in: 1,
-            share: |case| share(case, Carrier::Square),
-        },
-        Target {
-            name: "sine carrier",
-            one_in: 1,
-            share: |case| share(case, Carrier::Sine),
-        },
+        target("square carrier", 1, |case| share(case, Carrier::Square)),
+        target("sine carrier", 1, |case| share(case, Carrier::Sine)),
     ],
 };
 

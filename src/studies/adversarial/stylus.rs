@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use super::field::{BROKEN, Field, Range, Spaced, Target, numbers};
+use super::field::{BROKEN, Field, Range, Spaced, numbers, target};
 use crate::ReportError;
 use crate::stylus::relief_of;
 use selvedge_foundation::numerics::Grid;
@@ -39,21 +39,11 @@ pub(super) const FIELD: Field = Field {
     ranges: &RANGES,
     lead: None,
     targets: &[
-        Target {
-            name: "trapezoid",
-            one_in: 1,
-            share: |case| share(case, Stepper::Trapezoid),
-        },
-        Target {
-            name: "implicit-euler",
-            one_in: 1,
-            share: |case| share(case, Stepper::ImplicitEuler),
-        },
-        Target {
-            name: "exact",
-            one_in: 4,
-            share: |case| share(case, Stepper::Exact),
-        },
+        target("trapezoid", 1, |case| share(case, Stepper::Trapezoid)),
+        target("implicit-euler", 1, |case| {
+            share(case, Stepper::ImplicitEuler)
+        }),
+        target("exact", 4, |case| share(case, Stepper::Exact)),
     ],
 };
 

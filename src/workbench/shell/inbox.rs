@@ -47,14 +47,12 @@ impl Workbench {
 
     /// Whether the keyboard went to another program.
     fn is_keyboard_lost(&mut self, ctx: &egui::Context) -> bool {
-        let keyboard = &mut self.shell.keyboard;
-        // Events wait for a frame, which a window that is not shown does not get.
-        let has_focus = ctx.input(|input| input.raw.focused);
-        let had_focus = std::mem::replace(&mut keyboard.has_focus, has_focus);
-        let since_s = &mut keyboard.left_since_s;
+        let since_s = &mut self.shell.keyboard.left_since_s;
         if !self.bench.session.has_window {
             *since_s = None;
-            return had_focus && !has_focus;
+            // As it is, not as events tell: they wait for a frame, which a window that is not shown
+            // does not get.
+            return ctx.input(|input| !input.raw.focused);
         }
         let (now_s, has_any) = ctx.input(|input| {
             let mut windows = input.raw.viewports.values();

@@ -167,8 +167,6 @@ pub(crate) struct PaneFocus {
 pub(crate) struct Keyboard {
     /// Whether text was being typed at the end of the last frame.
     pub(crate) was_typing: bool,
-    /// Whether the workbench's window had it when it was looked at last.
-    pub(crate) has_focus: bool,
     /// Since when none of several windows has had it, s.
     pub(crate) left_since_s: Option<f64>,
 }
