@@ -190,24 +190,24 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
         }
         None => {}
     }
-    write(&picture::files(&analysis, &about, n_threads)?, &args.out)?;
-    for line in warnings(&analysis) {
+    let warnings = warnings(&analysis);
+    write(analysis, &about, &args.out)?;
+    for line in warnings {
         terminal::notice(&format!("{}: {line}", args.image.display()));
     }
     output::print(&described)
 }
 
-fn write(made: &[(&'static str, Vec<u8>)], out: &Path) -> Result<(), CliError> {
+fn write(analysis: Analysis, about: &About, out: &Path) -> Result<(), CliError> {
     output::make_folder(out, "name another with --out")?;
+    let mut old = picture::FILE_NAMES.to_vec();
+    picture::write_files(analysis, about, |name, bytes| {
+        old.retain(|old| *old != name);
+        output::write_bytes(&out.join(name), bytes)
+    })?;
     // What an earlier picture left there would pass for this one's.
-    for name in picture::FILE_NAMES {
-        let is_made = made.iter().any(|(made, _)| *made == name);
-        if !is_made {
-            drop(fs::remove_file(out.join(name)));
-        }
-    }
-    for (name, bytes) in made {
-        output::write_bytes(&out.join(name), bytes)?;
+    for name in old {
+        drop(fs::remove_file(out.join(name)));
     }
     Ok(())
 }

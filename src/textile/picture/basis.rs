@@ -78,6 +78,16 @@ impl Basis {
         self.area().atan2(dot(self.p1, self.p2))
     }
 
+    /// The two waves that are in step with the lattice, turns a pixel; of waves, the lattice.
+    #[must_use]
+    pub(super) fn dual(&self) -> Self {
+        let area = self.signed_area();
+        Self::new(
+            [self.p2[1] / area, -self.p2[0] / area],
+            [-self.p1[1] / area, self.p1[0] / area],
+        )
+    }
+
     /// `u·p1 + v·p2`.
     pub fn place(&self, [u, v]: Place) -> Place {
         mix(self.p1, u, self.p2, v)

@@ -48,7 +48,7 @@ pub use directions::{DirectionOptions, Directions, Measured};
 pub use lattice::{Lattice, NoLattice};
 pub use light::{EvenLight, even_light};
 pub use maxima::Maxima;
-pub use output::{About, FILE_NAMES, files};
+pub use output::{About, FILE_NAMES, write_files};
 pub use overlay::{overlay, range};
 pub use relief::{Relief, ReliefOf};
 pub use scale::PictureScale;

@@ -11,12 +11,11 @@ use super::overlay::{overlay, range};
 use super::relief::{Relief, object};
 use super::scale::PictureScale;
 use selvedge_foundation::files::{FileError, GrayImage, TableWriter, to_json_string};
-use selvedge_foundation::numerics::Grid;
 
 /// Rows of the table of maxima at most.
 const MAX_ROWS: usize = 5000;
 
-/// Every name that [`files`] may give.
+/// Every name that [`write_files`] may give.
 pub const FILE_NAMES: [&str; 8] = [
     "periodicity.json",
     "overlay.png",
@@ -47,68 +46,72 @@ pub struct About {
     pub no_relief: Option<String>,
 }
 
-/// The files of an analysis, by name.
+/// Writes the files of an analysis by name, each as soon as it is made.
 ///
 /// `periodicity.json`, `overlay.png`, and as far as there is anything to show
 /// `autocorrelation.png`, `maxima.csv`, `tile.png`, `synthesized.png` and `residual.png`;
-/// `height.png` of a relief. Pictures of luminance are stretched to the picture's own range.
+/// `height.png` of a relief. Pictures of luminance are stretched to the picture's own range. Of a
+/// large picture only what the next file shows is held.
 ///
 /// # Errors
-/// A picture that is too large for its format.
-pub fn files(
-    analysis: &Analysis,
+/// A picture that is too large for its format, or what `write` says.
+pub fn write_files<E: From<FileError>>(
+    analysis: Analysis,
     about: &About,
-    n_threads: usize,
-) -> Result<Vec<(&'static str, Vec<u8>)>, FileError> {
-    let found = analysis.found.as_ref().ok();
-    let json = Path::new("periodicity.json");
-    let mut all = vec![(
-        "periodicity.json",
-        to_json_string(&reported(analysis, about), json)?.into_bytes(),
-    )];
-    let lattice = found.map(|f| f.lattice.basis());
-    let ground = found.map_or(&analysis.luminance, |f| f.laid(&analysis.luminance));
-    let drawn = overlay(ground, lattice);
-    all.push(("overlay.png", drawn.to_png(Path::new("overlay.png"))?));
-    if let Some(measured) = &analysis.measured {
+    mut write: impl FnMut(&'static str, &[u8]) -> Result<(), E>,
+) -> Result<(), E> {
+    let name = "periodicity.json";
+    let json = to_json_string(&reported(&analysis, about), Path::new(name))?;
+    write(name, json.as_bytes())?;
+    let Analysis {
+        luminance,
+        measured,
+        found,
+        ..
+    } = analysis;
+    let lattice = found.as_ref().ok().map(|f| f.lattice.basis());
+    let (ground, tile) = match found {
+        Ok(Found { unwarped, tile, .. }) => {
+            (unwarped.map_or(luminance, |u| u.luminance), Some(tile))
+        }
+        Err(_) => (luminance, None),
+    };
+    let name = "overlay.png";
+    write(name, &overlay(&ground, lattice).to_png(Path::new(name))?)?;
+    if let Some(measured) = measured {
         let name = "autocorrelation.png";
-        all.push((name, measured.rho.picture().to_png(Path::new(name))?));
-        all.push(("maxima.csv", maxima_table(analysis)?));
+        write(name, &measured.rho.picture().to_png(Path::new(name))?)?;
+        write("maxima.csv", &maxima_table(&measured)?)?;
     }
-    if let Some(Found { tile, .. }) = found {
-        let (low, high) = range(ground);
-        let mut again = tile.patch(ground.width(), ground.height(), 1.0, 0.0, n_threads);
-        for (name, grid) in [("tile.png", &tile.values), ("synthesized.png", &again)] {
-            all.push((name, grey(grid, low, high).to_png(Path::new(name))?));
-        }
-        for (made, value) in again.values_mut().iter_mut().zip(ground.values()) {
-            *made = value + 0.5 * (low + high) - *made;
-        }
-        let name = "residual.png";
-        all.push((name, grey(&again, low, high).to_png(Path::new(name))?));
+    if let Some(tile) = tile {
+        let (low, high) = range(&ground);
+        let mut write_grey = |name, size, values: &mut dyn Iterator<Item = f64>| -> Result<(), E> {
+            let shares = values.map(|x| (x - low) / (high - low));
+            write(
+                name,
+                &GrayImage::of_shares(size, shares).to_png(Path::new(name))?,
+            )
+        };
+        let folded = &tile.values;
+        let size = [folded.width(), folded.height()];
+        write_grey("tile.png", size, &mut folded.values().iter().copied())?;
+        let size = [ground.width(), ground.height()];
+        write_grey("synthesized.png", size, &mut tile.samples(size))?;
+        let rest = ground.values().iter().zip(tile.samples(size));
+        let mut rest = rest.map(|(value, made)| value + 0.5 * (low + high) - made);
+        write_grey("residual.png", size, &mut rest)?;
     }
     if let Some((relief, relief_um)) = &about.relief {
-        let height = relief.picture(about.px_per_mm, *relief_um)?;
-        all.push(("height.png", height));
+        write("height.png", &relief.picture(about.px_per_mm, *relief_um)?)?;
     }
-    Ok(all)
+    Ok(())
 }
 
-fn grey(grid: &Grid<f64>, low: f64, high: f64) -> GrayImage {
-    let shares = grid.values().iter().map(|x| (x - low) / (high - low));
-    GrayImage::of_shares([grid.width(), grid.height()], shares)
-}
-
-fn maxima_table(analysis: &Analysis) -> Result<Vec<u8>, FileError> {
+fn maxima_table(measured: &Measurements) -> Result<Vec<u8>, FileError> {
     let mut bytes = Vec::new();
     let header = ["rank", "dx_px", "dy_px", "correlation", "dominance_px"];
     let mut table = TableWriter::new(&mut bytes, Path::new("maxima.csv"), &header)?;
-    let ranked = analysis
-        .measured
-        .as_ref()
-        .map(|m| m.maxima.ranked())
-        .unwrap_or_default();
-    for (rank, maximum) in (1_u32..).zip(ranked.iter().take(MAX_ROWS)) {
+    for (rank, maximum) in (1_u32..).zip(measured.maxima.ranked().iter().take(MAX_ROWS)) {
         table.number(rank);
         for x in [
             maximum.place[0],

@@ -1,12 +1,12 @@
 //! Lattice vectors to a small fraction of a pixel: those for which the mean cell varies most.
 //!
-//! The variance of the folded tile is the sum of the powers of its harmonics. The harmonics of the
+//! The variance of the folded tile is the sum of the powers of its harmonics. The first and the
 //! strongest few are summed over blocks of the picture once; for slightly other vectors the blocks
 //! only turn in phase, so that a search costs next to nothing.
 
 use std::f64::consts::TAU;
 
-use super::basis::{Basis, Place, length};
+use super::basis::{Basis, Place, length, mix};
 use super::light::mean_and_variance;
 use super::tile::Tile;
 use selvedge_foundation::numerics::{Complex, Grid, PlaneTransform, in_pieces};
@@ -19,6 +19,8 @@ const N_BLOCKS: usize = 16;
 const N_ROUNDS: usize = 2;
 /// Another round must promise more of the variance than this.
 const MIN_GAIN: f64 = 1e-3;
+/// No wave moves by more turns than this over the longer vector: that would be another lattice.
+const MAX_MOVE: f64 = 0.25;
 /// A round ends when the vectors are known to this share of a pixel at the picture's edge.
 const FINEST_PX: f64 = 1e-3;
 
@@ -42,7 +44,7 @@ impl Tile {
         for round in 0..N_ROUNDS {
             let share = |part: f64| 0.2 + 0.8 * (round as f64 + part) / N_ROUNDS as f64;
             step(share(0.0))?;
-            let harmonics = strongest(&best);
+            let harmonics = followed(&best);
             let blocks = Blocks::of(luminance, &best.basis(), &harmonics, n_threads);
             step(share(0.5))?;
             let tile = Self::fold(luminance, blocks.search(), n_threads);
@@ -60,11 +62,12 @@ impl Tile {
     }
 }
 
-/// Orders (m, n) of the strongest harmonics of a tile, one of ± each, without the mean.
-fn strongest(tile: &Tile) -> Vec<[f64; 2]> {
+/// Orders (m, n) of harmonics of a tile, one of ± each, without the mean: the first ones, without
+/// which a vector along strong ribs would be free, and the strongest.
+fn followed(tile: &Tile) -> Vec<[f64; 2]> {
     let (nu, nv) = (tile.values.width(), tile.values.height());
     let spectrum = PlaneTransform::new(nu, nv).forward(&tile.values);
-    let mut all: Vec<(f64, [f64; 2])> = Vec::new();
+    let mut all: Vec<(bool, f64, [f64; 2])> = Vec::new();
     for l in 0..nv {
         let n = if l <= nv / 2 {
             l as f64
@@ -74,16 +77,17 @@ fn strongest(tile: &Tile) -> Vec<[f64; 2]> {
         for (k, x) in spectrum.row(l).iter().enumerate() {
             let is_half = k > 0 || n > 0.0;
             if is_half {
-                all.push((x.norm_sqr(), [k as f64, n]));
+                all.push((k <= 1 && n.abs() <= 1.0, x.norm_sqr(), [k as f64, n]));
             }
         }
     }
-    all.sort_by(|a, b| b.0.total_cmp(&a.0));
-    all.into_iter()
-        .take(N_HARMONICS)
-        .map(|(_, order)| order)
-        .collect()
+    all.sort_by(|a, b| b.0.cmp(&a.0).then(b.1.total_cmp(&a.1)));
+    let orders = all.into_iter().map(|(_, _, order)| order);
+    orders.take(N_HARMONICS).collect()
 }
+
+/// How far the two waves of a lattice are moved, turns a pixel along x and y.
+type Waves = [Place; 2];
 
 /// A complex number for every harmonic, side by side so that all turn at once.
 #[derive(Clone, Copy)]
@@ -121,12 +125,13 @@ impl Phasors {
     }
 }
 
-/// The sums of the strongest harmonics over blocks.
+/// The sums of the harmonics that are followed over blocks.
 struct Blocks<'a> {
     basis: Basis,
     harmonics: &'a [[f64; 2]],
-    centres: Vec<Place>,
-    /// For every block, a number a harmonic.
+    /// Where the columns and the rows of blocks have their middles, px.
+    middles: [Vec<f64>; 2],
+    /// For every block, row by row, a number a harmonic.
     sums: Vec<Complex>,
     /// Half the diagonal of the picture, px.
     radius: f64,
@@ -164,62 +169,114 @@ impl<'a> Blocks<'a> {
             }
         };
         in_pieces(&mut sums, piece, n_threads, || (), work);
-        let middle = |k: usize, side: usize, whole: usize| {
-            0.5 * (k * side + ((k + 1) * side).min(whole)) as f64
-        };
-        let blocks = (0..n[1]).flat_map(|j| (0..n[0]).map(move |i| (i, j)));
-        let centres = blocks.map(|(i, j)| [middle(i, side[0], width), middle(j, side[1], height)]);
+        let middles = [(n[0], side[0], width), (n[1], side[1], height)].map(|(n, side, whole)| {
+            let ends = (0..n).map(|k| k * side + ((k + 1) * side).min(whole));
+            ends.map(|ends| 0.5 * ends as f64).collect()
+        });
         Self {
             basis: *basis,
             harmonics,
-            centres: centres.collect(),
+            middles,
             sums,
             radius: 0.5 * (width as f64).hypot(height as f64),
         }
     }
 
-    /// The folded variance, up to a constant, with other vectors.
-    fn variance(&self, basis: &Basis) -> f64 {
-        let mut totals = [Complex::default(); N_HARMONICS];
-        for (centre, sums) in self
-            .centres
-            .iter()
-            .zip(self.sums.chunks(self.harmonics.len().max(1)))
-        {
-            let (then, now) = (self.basis.coordinates(*centre), basis.coordinates(*centre));
-            let moved = [now[0] - then[0], now[1] - then[1]];
-            for ((total, sum), order) in totals.iter_mut().zip(sums).zip(self.harmonics) {
-                let turns = order[0] * moved[0] + order[1] * moved[1];
-                *total += sum * Complex::from_polar(1.0, -TAU * turns);
+    /// The folded variance, up to a constant, with waves moved by so many turns a pixel, of
+    /// harmonics of orders up to `max_order`.
+    fn variance(&self, moved: &Waves, max_order: f64) -> f64 {
+        let [columns, rows] = [0, 1].map(|axis| {
+            let phasors = self.middles[axis].iter().map(|middle| {
+                Phasors::of(self.harmonics.iter().map(|order| {
+                    if order[0].max(order[1].abs()) > max_order {
+                        return Complex::default();
+                    }
+                    let turns = mix(moved[0], order[0], moved[1], order[1])[axis] * middle;
+                    Complex::from_polar(1.0, -TAU * turns)
+                }))
+            });
+            phasors.collect::<Vec<_>>()
+        });
+        let mut blocks = self.sums.iter();
+        let mut totals = Phasors::of(std::iter::empty());
+        for row in &rows {
+            let mut along = Phasors::of(std::iter::empty());
+            for column in &columns {
+                for (h, sum) in blocks.by_ref().take(self.harmonics.len()).enumerate() {
+                    along.re[h] += sum.re * column.re[h] - sum.im * column.im[h];
+                    along.im[h] += sum.re * column.im[h] + sum.im * column.re[h];
+                }
+            }
+            for h in 0..N_HARMONICS {
+                totals.re[h] += along.re[h] * row.re[h] - along.im[h] * row.im[h];
+                totals.im[h] += along.re[h] * row.im[h] + along.im[h] * row.re[h];
             }
         }
-        totals.iter().map(Complex::norm_sqr).sum()
+        let powers = totals.re.iter().zip(&totals.im);
+        powers.map(|(re, im)| re * re + im * im).sum()
     }
 
-    /// Climbs from the first vectors with ever smaller steps, one coordinate after the other.
+    /// Climbs from the first vectors with ever smaller steps, one coordinate of the two waves after
+    /// the other: what lies along strong ribs is then found apart from them. A harmonic counts from
+    /// where a step moves it by less than half a turn at the picture's edge.
     fn search(&self) -> Basis {
-        let mut at = self.basis;
-        let mut best = self.variance(&at);
-        // A step moves the lattice at the picture's edge by this much, px.
-        let mut edge_px = 0.25 * at.shorter();
-        while edge_px > FINEST_PX {
-            let mut is_better = false;
-            for axis in 0..4 {
-                for sign in [1.0, -1.0] {
-                    let mut next = at;
-                    let vector = if axis < 2 { &mut next.p1 } else { &mut next.p2 };
-                    let n_periods = (self.radius / length(*vector)).max(1.0);
-                    vector[axis % 2] += sign * edge_px / n_periods;
-                    let value = self.variance(&next);
-                    if value > best {
-                        (at, best, is_better) = (next, value, true);
+        let mut moved = [[0.0; 2]; 2];
+        let (shorter_px, longer_px) = (self.basis.shorter(), self.basis.longer());
+        let mut turns = 0.25;
+        while turns * shorter_px > FINEST_PX {
+            let max_order = 0.5 / turns;
+            let mut best = self.variance(&moved, max_order);
+            let mut is_better = true;
+            while is_better {
+                is_better = false;
+                for axis in 0..4 {
+                    for sign in [1.0, -1.0] {
+                        let mut next = moved;
+                        next[axis / 2][axis % 2] += sign * turns / self.radius;
+                        if length(next[axis / 2]) * longer_px > MAX_MOVE {
+                            continue;
+                        }
+                        let value = self.variance(&next, max_order);
+                        if value > best {
+                            (moved, best, is_better) = (next, value, true);
+                        }
                     }
                 }
             }
-            if !is_better {
-                edge_px *= 0.5;
-            }
+            turns *= 0.5;
         }
-        at
+        let waves = self.basis.dual();
+        Basis::new(
+            mix(waves.p1, 1.0, moved[0], 1.0),
+            mix(waves.p2, 1.0, moved[1], 1.0),
+        )
+        .dual()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use selvedge_foundation::numerics::Random;
+
+    #[test]
+    fn strong_ribs_leave_the_vector_along_them_neither_free_nor_far_away() {
+        // Ribs of twelve harmonics across, a faint repeat along them.
+        let mut random = Random::new(5);
+        let (across, along) = (16.7, 15.6);
+        let places = (0..300 * 300).map(|i| [f64::from(i % 300), f64::from(i / 300)]);
+        let values = places.map(|[x, y]| {
+            let ribs: f64 = (1..=14_u8)
+                .map(|n| (TAU * f64::from(n) * y / across).cos() / f64::from(n))
+                .sum();
+            0.5 + 0.1 * ribs + 0.01 * (TAU * x / along).cos() + 0.05 * random.normal()
+        });
+        let picture = Grid::from_rows(300, values.collect()).unwrap();
+        let about = Basis::new([along + 0.3, 0.1], [0.4, across - 0.1]);
+        let refined = Tile::refine(&picture, about, 2, |_| Ok::<_, ()>(()));
+        let (tile, _) = refined.unwrap();
+        let off = |vector: Place, to: Place| length(mix(vector, 1.0, to, -1.0));
+        assert!(off(tile.p1_px, [along, 0.0]) < 0.1, "{:?}", tile.p1_px);
+        assert!(off(tile.p2_px, [0.0, across]) < 0.1, "{:?}", tile.p2_px);
     }
 }

@@ -82,6 +82,13 @@ impl Tile {
         between(&self.values, place, |a, b, share| a + share * (b - a))
     }
 
+    /// A picture of so many columns and rows made of it, sample by sample as they are asked for.
+    pub(super) fn samples(&self, [width, height]: [usize; 2]) -> impl Iterator<Item = f64> {
+        let basis = self.basis();
+        let places = (0..height).flat_map(move |y| (0..width).map(move |x| [x, y]));
+        places.map(move |place| self.at(basis.coordinates(place.map(|n| n as f64))))
+    }
+
     /// Textile of any size made of it: sample (x, y) of the patch lies at
     /// `step_px·(x along, y across)` from the picture's first pixel, along turned by `angle_rad`
     /// clockwise from x to the right.
