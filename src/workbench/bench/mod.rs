@@ -10,6 +10,7 @@ pub(crate) mod background;
 pub(crate) mod chosen_display;
 pub(crate) mod chosen_keys;
 pub(crate) mod clips;
+pub(crate) mod clock;
 pub(crate) mod command;
 pub(crate) mod device;
 pub(crate) mod document;
@@ -74,6 +75,7 @@ pub(crate) mod view;
 use crate::bench::applied_gains::AppliedGains;
 use crate::bench::arrays::Arrays;
 use crate::bench::background::Executor;
+use crate::bench::clock::Clock;
 use crate::bench::command::Commands;
 use crate::bench::document::Document;
 use crate::bench::error::AppError;
@@ -100,7 +102,7 @@ use crate::bench::view::EngineView;
 use crate::kit::theme;
 use eframe::egui;
 use selvedge_device::LogBound;
-use selvedge_engine::{Command, Engine, EngineConfig, TICK};
+use selvedge_engine::{Command, Engine, EngineConfig};
 use selvedge_render::scene::LoadedScene;
 use std::path::Path;
 use std::sync::Arc;
@@ -156,8 +158,7 @@ pub(crate) struct Bench {
     /// Where long work is done.
     pub(crate) executor: Executor,
     pub(crate) ctx: egui::Context,
-    /// The time, where the toolkit's clock drives the engine.
-    pub(crate) stepped_at: Option<Instant>,
+    pub(crate) clock: Clock,
 }
 
 impl Bench {
@@ -227,7 +228,7 @@ impl Bench {
                 Executor::Threads(ctx.clone())
             },
             ctx: ctx.clone(),
-            stepped_at: is_stepped.then_some(now),
+            clock: Clock::new(is_stepped.then_some(now)),
         };
         bench.begin(drive, [complaint, opened.changed]);
         Ok(bench)
@@ -325,7 +326,7 @@ impl Bench {
 
     /// Whether the toolkit's clock drives the engine.
     pub(crate) fn is_stepped(&self) -> bool {
-        self.stepped_at.is_some()
+        self.clock.stepped_at.is_some()
     }
 
     /// Whether a session of an experiment is under way.
@@ -357,14 +358,6 @@ impl Bench {
     pub(crate) fn n_contactors(&self) -> usize {
         let first = self.document.scene().displays.first();
         first.map_or(0, |display| display.geometry.n_contactors())
-    }
-
-    /// The stamp of an event that arrives now.
-    pub(crate) fn stamp(&self) -> Instant {
-        match self.stepped_at {
-            Some(now) => now + TICK / 2,
-            None => Instant::now(),
-        }
     }
 }
 

@@ -52,7 +52,7 @@ impl Bench {
         let (records, has_session) = (self.live.play.is_recording, self.has_session());
         let has_input = self.exploration.sources.chosen().is_some();
         let is_unheard = matches!(self.device.sound.state(), Some(SoundState::Absent(_)));
-        let now_s = ctx.input(|input| input.time);
+        let now_s = self.clock.now_s();
         let next_s = self.notices.follow(now_s, |until| match until {
             Until::PutAway | Until::Read => false,
             Until::Armed => is_armed,
@@ -121,7 +121,7 @@ impl Bench {
             let Some(now) = self.engine.advance_ticks(1) else {
                 return;
             };
-            self.stepped_at = Some(now);
+            self.clock.stepped_at = Some(now);
             let tick = self.engine.snapshot().tick;
             if tick <= done {
                 return;

@@ -287,7 +287,7 @@ mod tests {
                 participant: None,
                 is_stage: false,
             };
-            let now = workbench.bench.stamp();
+            let now = workbench.bench.clock.stamp();
             let ear = Ear::new(Rc::new(RefCell::new(Some(ears))), now);
             Self {
                 window,
@@ -299,7 +299,7 @@ mod tests {
         /// A finger does this at a place of the workspace; ear and toolkit hear of it.
         fn touch(&mut self, id: u64, phase: TouchPhase, [x_mm, y_mm]: [f64; 2]) {
             let workbench = &self.window.workbench;
-            let now = workbench.bench.stamp();
+            let now = workbench.bench.clock.stamp();
             let place = Point::new(x_mm, y_mm);
             let at = workbench.shell.tap.lock().unwrap().screen(place).unwrap();
             let touch = Touch {
@@ -481,7 +481,7 @@ mod tests {
         let device_id = DeviceId::dummy();
         for n in 1..8 {
             desk.touch(1, TouchPhase::Moved, place(1, n));
-            let now = desk.window.workbench.bench.stamp();
+            let now = desk.window.workbench.bench.clock.stamp();
             let moved = WindowEvent::CursorMoved {
                 device_id,
                 position: at,

@@ -311,7 +311,7 @@ pub(crate) fn feel(window: &mut Workbench, ctx: &egui::Context, ground: Option<P
             has_moved.then(|| input.pointer.latest_pos()).flatten()
         });
         if let Some(at) = moved {
-            tap.moved_to(window.bench.stamp(), at);
+            tap.moved_to(window.bench.clock.stamp(), at);
         }
     }
 }

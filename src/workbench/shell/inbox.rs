@@ -36,7 +36,7 @@ impl Workbench {
         self.settle();
         self.follow_unsaved(ctx);
         self.keep_settings();
-        let now_s = ctx.input(|input| input.time);
+        let now_s = self.bench.clock.now_s();
         if let Some(wait_s) = self.bench.settings.save_if_changed(now_s) {
             ctx.request_repaint_after(Duration::from_secs_f64(wait_s));
         }
@@ -54,14 +54,11 @@ impl Workbench {
             // does not get.
             return ctx.input(|input| !input.raw.focused);
         }
-        let (now_s, has_any) = ctx.input(|input| {
+        let has_any = ctx.input(|input| {
             let mut windows = input.raw.viewports.values();
-            (
-                input.time,
-                windows.any(|window| window.focused == Some(true)),
-            )
+            windows.any(|window| window.focused == Some(true))
         });
-        let wait_s = left_alone_s(since_s, now_s, has_any);
+        let wait_s = left_alone_s(since_s, self.bench.clock.now_s(), has_any);
         if wait_s.is_some_and(|wait_s| wait_s > 0.0) {
             ctx.request_repaint_after(FRAME);
         }
@@ -130,7 +127,10 @@ fn left_alone_s(since_s: &mut Option<f64>, now_s: f64, has_keyboard: bool) -> Op
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use super::left_alone_s;
+    use crate::shell::headless::Headless;
 
     #[test]
     fn the_keyboard_is_lost_only_when_neither_window_has_it_for_a_while() {
@@ -142,5 +142,21 @@ mod tests {
         assert_eq!(it_went_to_the_other, None);
         assert!(left_alone_s(&mut since_s, 2.0, false).unwrap() > 0.0);
         assert_eq!(left_alone_s(&mut since_s, 2.3, false), Some(0.0));
+    }
+
+    #[test]
+    fn a_keyboard_that_left_both_windows_is_missed_where_neither_is_shown() {
+        let mut window = Headless::shipped();
+        window.pass(2);
+        let (ctx, workbench) = (window.ctx.clone(), &mut window.workbench);
+        workbench.bench.session.has_window = true;
+        assert!(!workbench.is_keyboard_lost(&ctx), "it may be on its way");
+        // The look after the last frame, and one a second later: no frame, and the toolkit's clock
+        // stands still.
+        workbench.bench.clock.look(&ctx);
+        assert!(!workbench.is_keyboard_lost(&ctx));
+        workbench.bench.clock.unseen_for(Duration::from_secs(1));
+        workbench.bench.clock.look(&ctx);
+        assert!(workbench.is_keyboard_lost(&ctx));
     }
 }

@@ -30,7 +30,7 @@ impl Workbench {
 
     /// Keeps unsaved work against a crash when something has changed. Once a frame.
     pub(crate) fn follow_unsaved(&mut self, ctx: &Context) {
-        let now_s = ctx.input(|input| input.time);
+        let now_s = self.bench.clock.now_s();
         let is_act = |event: &Event| !matches!(event, Event::PointerMoved(_) | Event::PointerGone);
         if ctx.input(|input| input.events.iter().any(is_act)) {
             self.bench.files.recovery.touch(now_s);
@@ -65,7 +65,7 @@ impl Workbench {
 
     /// The same, before anything that may go wrong: an import, a device that is armed, a question.
     pub(crate) fn keep_unsaved_now(&mut self) {
-        let now_s = self.bench.ctx.input(|input| input.time);
+        let now_s = self.bench.clock.now_s();
         self.keep_unsaved(now_s);
     }
 
@@ -103,7 +103,7 @@ impl Workbench {
                 .give(format!("{name} could not be restored: {line}"));
             bench.files.recovery.put_off();
         }
-        let now_s = bench.ctx.input(|input| input.time);
+        let now_s = bench.clock.now_s();
         bench.files.recovery.touch(now_s);
     }
 }

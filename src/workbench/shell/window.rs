@@ -52,6 +52,7 @@ impl Workbench {
 
 impl eframe::App for Workbench {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        self.bench.clock.look(ctx);
         if self.stage_logic(ctx) {
             return;
         }
@@ -62,6 +63,7 @@ impl eframe::App for Workbench {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        self.bench.clock.draw();
         if self.stage_ui(ui) {
             return;
         }

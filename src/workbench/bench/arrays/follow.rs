@@ -96,8 +96,8 @@ impl Bench {
     }
 
     fn save_arrays(&mut self, ctx: &egui::Context) {
-        let now_s = ctx.input(|input| input.time);
-        let (failure, wait_s) = self.device.arrays.save_if_changed(&self.executor, now_s);
+        let arrays = &mut self.device.arrays;
+        let (failure, wait_s) = arrays.save_if_changed(&self.executor, self.clock.now_s());
         if let Some(wait_s) = wait_s {
             ctx.request_repaint_after(Duration::from_secs_f64(wait_s));
         }

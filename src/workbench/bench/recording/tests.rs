@@ -46,7 +46,7 @@ pub(crate) fn two_apart(folder: &ScratchFolder, shown: usize) -> Headless {
     desk.dispatch(PlayCommand::ToggleRecording);
     for n in 0..40 {
         let mut tap = desk.workbench.shell.tap.lock().unwrap();
-        let stamp = desk.workbench.bench.stamp();
+        let stamp = desk.workbench.bench.clock.stamp();
         let lines = [(60.0, 2.0, 0..40), (150.0, 3.0, 8..30)];
         for (display, (y_mm, step_mm, within)) in lines.into_iter().enumerate() {
             let place = Point::new(40.0 + step_mm * f64::from(n), y_mm);

@@ -26,7 +26,7 @@ const SECOND: std::time::Duration = std::time::Duration::from_secs(1);
 fn began(bench: &Bench) -> Began {
     Began {
         utc: SystemTime::now(),
-        at: bench.stamp(),
+        at: bench.clock.stamp(),
         shown_s: bench.ctx.input(|input| input.time),
     }
 }
@@ -59,7 +59,7 @@ impl Experiment {
         let Some(session) = &mut self.session else {
             return;
         };
-        if let Some(tuning) = session.mark(mark, bench.stamp()) {
+        if let Some(tuning) = session.mark(mark, bench.clock.stamp()) {
             bench.send(Command::SetTuning(tuning));
         }
         let is_trial = session.trial().is_some();
@@ -85,7 +85,7 @@ impl Experiment {
         let Some(session) = &mut self.session else {
             return;
         };
-        if !session.end_trial(answer, bench.stamp()) {
+        if !session.end_trial(answer, bench.clock.stamp()) {
             return;
         }
         if session.is_recording() {

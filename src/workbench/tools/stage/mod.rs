@@ -32,11 +32,12 @@ mod tests;
 mod view;
 mod voltage;
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use eframe::egui::{CursorIcon, RawInput, Rect, Theme, Ui};
 
 use crate::bench::Bench;
+use crate::bench::clock::UNSEEN;
 use crate::bench::command::{Command, DeviceCommand};
 use crate::bench::stage::{StageOptions, StagePicture};
 use crate::bench::tool::{PaneContext, PublicFace};
@@ -76,16 +77,9 @@ pub(crate) struct Stage {
     told: Told,
     drawn: Drawn,
     may_close: bool,
-    /// How far its clock is ahead of the toolkit's: in pictures, s.
+    /// How far its clock is ahead of the bench's: in pictures, s.
     ahead_s: f64,
-    /// The toolkit's clock at the last frame, s, and when that was.
-    frame: (f64, Instant),
-    /// Whether a frame was drawn since the last look at the clock.
-    was_drawn: bool,
 }
-
-/// Between two looks at a stage that nobody sees: what is armed is not forgotten.
-const UNSEEN: Duration = Duration::from_millis(250);
 
 impl Stage {
     /// The stage of a bench whose scene has four textiles.
@@ -118,27 +112,7 @@ impl Stage {
             drawn: Drawn::default(),
             may_close: false,
             ahead_s: 0.0,
-            frame: (0.0, Instant::now()),
-            was_drawn: true,
         }
-    }
-
-    /// Its clock. A window that is not shown gets no frames, and the toolkit's clock stands still:
-    /// then it goes on from there, and nobody's hand is on the screen.
-    fn now_s(&mut self, bench: &Bench) -> f64 {
-        if std::mem::take(&mut self.was_drawn) {
-            self.frame = (bench.ctx.input(|input| input.time), Instant::now());
-        } else {
-            self.hand = Hand::default();
-            bench.ctx.request_repaint_after(UNSEEN);
-        }
-        let unseen_s = self.frame.1.elapsed().as_secs_f64();
-        let since_s = if unseen_s < UNSEEN.as_secs_f64() {
-            0.0
-        } else {
-            unseen_s
-        };
-        self.frame.0 + since_s + self.ahead_s
     }
 
     /// Everything off; the screen goes on.
@@ -326,7 +300,12 @@ impl PublicFace for Stage {
     }
 
     fn logic(&mut self, bench: &mut Bench) {
-        let now_s = self.now_s(bench);
+        if !bench.clock.is_seen() {
+            // Nobody's hand is on it.
+            self.hand = Hand::default();
+            bench.ctx.request_repaint_after(UNSEEN);
+        }
+        let now_s = bench.clock.now_s() + self.ahead_s;
         let device = self.device_state(bench);
         let was_permitted = self.machine.voltage.is_permitted();
         self.lock.step(now_s);
@@ -346,7 +325,6 @@ impl PublicFace for Stage {
     }
 
     fn ui(&mut self, ui: &mut Ui, context: &mut PaneContext<'_>) {
-        self.was_drawn = true;
         let now_s = self.machine.now_s();
         let ground = self.ground_of(ui);
         let strays = &context.bench.pointer.strays;

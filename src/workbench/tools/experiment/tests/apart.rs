@@ -33,7 +33,7 @@ fn a_view_that_went_to_its_own_window_is_felt_there_and_comes_back() {
         })
         .unwrap();
     for n in 0..30_u8 {
-        let stamp = window.workbench.bench.stamp();
+        let stamp = window.workbench.bench.clock.stamp();
         let to = at.center() + vec2(-90.0 + 6.0 * f32::from(n), -60.0);
         window
             .workbench
@@ -90,7 +90,7 @@ fn a_movement_over_the_other_window_is_not_felt() {
     to_trial(&mut window);
     explore(&mut window, 4);
     let mut moved_to = |over, pixel| {
-        let stamp = window.workbench.bench.stamp();
+        let stamp = window.workbench.bench.clock.stamp();
         let mut tap = window.workbench.shell.tap.lock().unwrap();
         tap.moved_to_pixel(stamp, over, (0, pixel));
         drop(tap);

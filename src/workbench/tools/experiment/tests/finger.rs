@@ -59,7 +59,7 @@ pub(super) fn stroke(on: &mut impl Frames, corner: Point, steps: Range<u64>) {
         let [dx_mm, dy_mm] = [10.0 + 2.0 * along, 20.0 + along];
         let to = Point::new(corner.x_mm + dx_mm, corner.y_mm + dy_mm);
         let workbench = &on.window().workbench;
-        let stamp = workbench.bench.stamp();
+        let stamp = workbench.bench.clock.stamp();
         let mut tap = workbench.shell.tap.lock().unwrap();
         if let Some(at) = tap.screen(to) {
             tap.moved_to(stamp, at);
@@ -73,7 +73,7 @@ pub(super) fn stroke(on: &mut impl Frames, corner: Point, steps: Range<u64>) {
 pub(super) fn explore(window: &mut Headless, n_ticks: u16) {
     for n in 0..n_ticks {
         let at = Pos2::new(300.0 + 6.0 * f32::from(n % 40), 300.0);
-        let stamp = window.workbench.bench.stamp();
+        let stamp = window.workbench.bench.clock.stamp();
         window
             .workbench
             .shell

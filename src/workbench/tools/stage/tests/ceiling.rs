@@ -27,7 +27,7 @@ impl Visited {
     fn frame(&mut self, n_ticks: u32) {
         for _ in 0..n_ticks {
             let bench = &mut self.window.workbench.bench;
-            bench.stepped_at = bench.engine.advance_ticks(1);
+            bench.clock.stepped_at = bench.engine.advance_ticks(1);
             let actuators = bench.engine.actuators().unwrap();
             let codes = actuators.reading().codes.iter().flatten();
             let largest = codes.copied().max().unwrap_or_default();
