@@ -35,12 +35,12 @@ pub struct ScaledRelief {
 }
 
 impl ScaledRelief {
-    /// Gives a shape its heights; `strokes` draws the tester over a map.
+    /// Gives a shape its heights; `strokes` draws the tester over a map of so much relief, µm.
     pub fn of(
         shape: &Shape,
         step_mm: [f64; 2],
         scale: HeightScale,
-        strokes: &impl Fn(&HeightMap) -> Result<ProfileSet, TextileError>,
+        strokes: &impl Fn(&HeightMap, f64) -> Result<ProfileSet, TextileError>,
     ) -> Result<Self, TextileError> {
         if shape.is_flat() {
             return Err(ShadingError::Flat.into());
@@ -56,8 +56,10 @@ impl ScaledRelief {
             HeightScale::ReliefUm(relief_um) => (checked("the relief", relief_um)?, None),
             HeightScale::SmdUm(smd_um) => {
                 let wanted = checked("the SMD", smd_um)?;
-                let of_relief =
-                    |relief_um: f64| Ok(crate::surface::smd_um(&strokes(&of(relief_um)?)?));
+                let of_relief = |relief_um: f64| {
+                    let strokes = strokes(&of(relief_um)?, relief_um)?;
+                    Ok(crate::surface::smd_um(&strokes))
+                };
                 (relief_for(wanted, of_relief)?, Some(wanted))
             }
         };

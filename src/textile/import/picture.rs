@@ -1,6 +1,7 @@
 //! A textile of a shape that was found on a picture: the map of one repeat, four strokes of the
 //! virtual tester over it, a picture, and a manifest that says how it was found.
 
+use std::cell::OnceCell;
 use std::path::Path;
 
 use super::description::manifest_file;
@@ -205,7 +206,12 @@ impl PictureTextile {
         for place in PLACES {
             let middle_mm = map.size_mm().map(|mm| place * mm);
             let profiles = map.strokes(&Probe::contactor(), middle_mm, &Random::new(0));
-            let surface = profiles.and_then(|profiles| Surface::from_profiles(profiles, 0.0));
+            let surface = profiles.and_then(|mut profiles| {
+                for [_, reverse] in Direction::BY_AXIS {
+                    profiles[reverse.index()] = None;
+                }
+                Surface::from_profiles(profiles, 0.0)
+            });
             let surface = surface.map_err(|(_, source)| no_surface(source))?;
             let by_direction = Levels::of(&surface, &Filters::default()).direction_mean_um;
             for (means, [forward, _]) in means_um.iter_mut().zip(Direction::BY_AXIS) {
@@ -236,12 +242,19 @@ fn heights(
         }
         .into());
     }
-    let drawn = |map: &HeightMap| {
-        let mut measured = measured(map, &about.name);
+    // What is synthesized of a map is as high as the map: it is drawn once.
+    let extended = OnceCell::<(f64, Measured)>::new();
+    let drawn = |map: &HeightMap, relief_um: f64| {
+        let mut drawn = measured(map, &about.name);
         if let Some(synthesis) = keys.synthesis {
-            synthesis.extend(&mut measured, Path::new(MAP))?;
+            if extended.get().is_none() {
+                synthesis.extend(&mut drawn, Path::new(MAP))?;
+            }
+            let (first_um, first) = extended.get_or_init(|| (relief_um, drawn.clone()));
+            let factor = relief_um / first_um;
+            drawn.heights_um = first.heights_um.map(|um| um * factor);
         }
-        keys.map().strokes(&measured, Path::new(MAP))
+        keys.map().strokes(&drawn, Path::new(MAP))
     };
     let step_mm = about.step_mm([width, height]);
     ScaledRelief::of(shape, step_mm, about.scale, &drawn)

@@ -269,7 +269,10 @@ impl Heights {
     /// The points of a coarser lattice within reach with their distances, nearest first.
     fn points(&self, [[a, b], [_, d]]: Rows, reach: f64, of: &[f64]) -> Vec<(f64, [isize; 2])> {
         let n = self.n;
-        let indices = (-n..=n).flat_map(|l| (-n..=n).map(move |k| [a * k, b * k + d * l]));
+        let indices = (-(n / a)..=n / a).flat_map(|k| {
+            let rows = -(n + b * k).div_euclid(d)..=(n - b * k).div_euclid(d);
+            rows.map(move |l| [a * k, b * k + d * l])
+        });
         let mut points: Vec<(f64, [isize; 2])> = indices
             .filter(|index| *index != [0, 0] && self.at(of, *index).is_some())
             .map(|[i, j]| (length(self.basis.place([i as f64, j as f64])), [i, j]))

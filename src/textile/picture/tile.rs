@@ -47,7 +47,7 @@ const MAX_SHEAR: f64 = 0.035;
 
 impl Tile {
     /// The mean of all cells of a picture.
-    pub(crate) fn fold(luminance: &Grid<f64>, basis: Basis, n_threads: usize) -> Self {
+    pub fn fold(luminance: &Grid<f64>, basis: Basis, n_threads: usize) -> Self {
         let whole = [0, 0, luminance.width(), luminance.height()];
         Self::fold_part(luminance, whole, basis, n_threads)
     }

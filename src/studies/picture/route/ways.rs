@@ -228,7 +228,8 @@ impl Subject {
     /// A shape as high as reads the SMD of the strokes.
     fn scaled(&self, shape: &Shape, step_mm: [f64; 2]) -> Result<HeightMap, String> {
         let scale = HeightScale::SmdUm(smd_um(&self.strokes));
-        let tester = |map: &HeightMap| strokes(map, &Probe::default(), 0.5, &Random::new(1));
+        let tester =
+            |map: &HeightMap, _: f64| strokes(map, &Probe::default(), 0.5, &Random::new(1));
         let scaled = ScaledRelief::of(shape, step_mm, scale, &tester).map_err(|e| e.to_string())?;
         Ok(scaled.map)
     }

@@ -55,16 +55,18 @@ pub(crate) struct Cloth {
     pub maxima: Vec<([f64; 2], f64)>,
     /// Directions by both measures.
     pub directions: Option<Directions>,
-    /// The lattice that is found by itself, and those next to it.
-    pub(crate) offered: [Vec<Lattice>; 2],
+    /// The lattice that is found by itself, if one is, and those next to it, each with a piece of
+    /// the cloth that it folds the picture to.
+    pub(crate) found_by_itself: Option<Lattice>,
+    pub(crate) offered: Vec<(Lattice, Image)>,
     /// Lattice and tile; why there are none, in a sentence.
     pub found: Result<Box<Tiled>, String>,
     /// The lattice on the picture, cloth of the tile, what that leaves.
     pub images: Option<[Image; 3]>,
     /// Pixels of the picture along the images.
     pub(crate) shown_px: f64,
-    /// Whether it was not yet laid straight where it is bent.
-    pub(crate) may_be_bent: bool,
+    /// Whether other lattices were not looked for yet, and bent cloth is not laid straight.
+    pub(crate) is_first: bool,
 }
 
 /// A textile, ready to be kept.

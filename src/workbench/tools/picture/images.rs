@@ -5,7 +5,7 @@ use std::sync::Arc;
 use eframe::egui::{Color32, ColorImage};
 
 use selvedge_foundation::files::Rgb8Image;
-use selvedge_foundation::numerics::{Grid, to_byte, to_index};
+use selvedge_foundation::numerics::{Grid, n_threads, to_byte, to_index};
 use selvedge_textile::picture::{Autocorrelation, Lattice, Tile, overlay, range};
 
 /// Pixels along the longer side of a picture that is shown at most.
@@ -13,6 +13,9 @@ const MOST_SIDE: usize = 640;
 /// Cells of the lattice that a part is shown with, and its least size, px.
 const N_CELLS: f64 = 7.0;
 const LEAST_PART: f64 = 80.0;
+/// Pixels along a piece of cloth that is offered, and longer vectors of its lattice.
+const FOLDED_SIDE: usize = 96;
+const N_FOLDED: f64 = 2.5;
 /// Lattice vectors that the autocorrelation is shown with.
 const N_VECTORS: f64 = 4.0;
 
@@ -87,6 +90,15 @@ pub(crate) fn synthesized(part: &Grid<f64>, tile: &Tile, n_threads: usize) -> [I
         *value += 0.5 * (ends.0 + ends.1) - made;
     }
     [grey(&again, ends), grey(&rest, ends)]
+}
+
+/// A piece of the cloth that a picture becomes by a lattice, so large that its repeat is seen.
+pub(crate) fn folded(luminance: &Grid<f64>, lattice: &Lattice) -> Image {
+    let basis = lattice.basis();
+    let step_px = N_FOLDED * basis.longer() / FOLDED_SIDE as f64;
+    let tile = Tile::fold(luminance, basis, n_threads());
+    let piece = tile.patch(FOLDED_SIDE, FOLDED_SIDE, step_px, 0.0, n_threads());
+    grey(&piece, range(luminance))
 }
 
 /// The autocorrelation up to a few vectors, or all of it; and the shift at its edge, px.

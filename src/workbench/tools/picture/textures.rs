@@ -10,6 +10,9 @@ use crate::kit::widgets::relief3d::View3d;
 use crate::tools::picture::found::Made;
 use crate::tools::picture::images::Image;
 
+/// Cards of stages; what is numbered from here on is none.
+pub(crate) const N_CARDS: usize = 8;
+
 /// Stages as textures, and from where the relief is looked at.
 #[derive(Default)]
 pub(crate) struct Textures {

@@ -114,9 +114,16 @@ fn stages(
     found.correlated = Some(Arc::clone(&correlated));
     progress.step(0.5, "fitting the lattice")?;
     let cloth = match known(prior, |of| of.has_same_tile(&inputs), |found| &found.cloth) {
-        Some(cloth) if cloth.may_be_bent => Arc::new(straightened(&cloth, &correlated, progress)?),
+        Some(cloth) if cloth.is_first => Arc::new(completed(&cloth, &correlated, progress)?),
         Some(cloth) => cloth,
-        None => Arc::new(cloth(&inputs, &correlated, progress)?),
+        None => {
+            let mut cloth = cloth(&inputs, &correlated, progress)?;
+            let is_same = |of: &Draft| of.has_same_part(&inputs) && of.lambda == inputs.lambda;
+            if let Some(before) = known(prior, is_same, |found| &found.cloth) {
+                before.offered.clone_into(&mut cloth.offered);
+            }
+            Arc::new(cloth)
+        }
     };
     found.cloth = Some(Arc::clone(&cloth));
     if is_new(prior.and_then(|prior| prior.cloth.as_ref()), &cloth) {
@@ -226,11 +233,12 @@ fn cloth(
                 correlation: None,
                 maxima: Vec::new(),
                 directions: None,
-                offered: Default::default(),
+                found_by_itself: None,
+                offered: Vec::new(),
                 found: Err(reason.clone()),
                 images: None,
                 shown_px: 1.0,
-                may_be_bent: false,
+                is_first: false,
             });
         }
     };
@@ -240,11 +248,10 @@ fn cloth(
     let directions = Directions::of(significant, options);
     let read = (rho, maxima, significant);
     let by_itself = Lattice::find(rho, maxima, significant, &directions);
-    let others = Lattice::others(read, &directions, by_itself.as_ref().ok());
     let given = inputs
         .lattice
         .map(|[p1, p2]| Lattice::given(read, Basis::new(p1, p2)));
-    let offered = [by_itself.ok().into_iter().collect(), others];
+    let found_by_itself = by_itself.as_ref().ok().copied();
     let lattice = given.map_or(by_itself, Ok);
     let luminance = &correlated.luminance;
     let found = match lattice {
@@ -262,10 +269,11 @@ fn cloth(
         correlation: Some(images::correlation(rho, lattice)),
         maxima: ranked.iter().map(|m| (m.place, m.height)).collect(),
         directions: Some(directions),
-        offered,
+        found_by_itself,
+        offered: Vec::new(),
         images: None,
         shown_px: 1.0,
-        may_be_bent: found.as_deref().is_ok_and(|tiled| !tiled.lies_flat()),
+        is_first: true,
         found,
     };
     Ok(pictured(cloth, luminance))
@@ -283,24 +291,35 @@ fn pictured(mut cloth: Cloth, luminance: &Grid<f64>) -> Cloth {
     cloth
 }
 
-/// A cloth that may be bent, laid straight.
-fn straightened(
+/// A cloth with the lattices beside its own, laid straight where it is bent.
+fn completed(
     cloth: &Cloth,
     correlated: &Correlated,
     progress: &mut Progress<'_>,
 ) -> Result<Cloth, Cancelled> {
-    let mut straight = Cloth {
-        may_be_bent: false,
+    let mut cloth = Cloth {
+        is_first: false,
         ..cloth.clone()
     };
-    if let Ok(tiled) = &mut straight.found {
-        tiled.lay(&correlated.luminance, n_threads(), progress)?;
+    let luminance = &correlated.luminance;
+    if let (Ok((rho, maxima, significant)), Some(directions)) =
+        (&correlated.read, &cloth.directions)
+        && cloth.offered.is_empty()
+    {
+        let itself = cloth.found_by_itself;
+        let others = Lattice::others((rho, maxima, significant), directions, itself.as_ref());
+        let all = itself.into_iter().chain(others);
+        let folded = all.map(|lattice| (lattice, images::folded(luminance, &lattice)));
+        cloth.offered = folded.collect();
     }
+    let Some(tiled) = cloth.found.as_mut().ok().filter(|tiled| !tiled.lies_flat()) else {
+        return Ok(cloth);
+    };
+    tiled.lay(luminance, n_threads(), progress)?;
     if let Ok((rho, ..)) = &correlated.read {
-        let lattice = straight.found.as_deref().ok().map(|tiled| &tiled.lattice);
-        straight.correlation = Some(images::correlation(rho, lattice));
+        cloth.correlation = Some(images::correlation(rho, Some(&tiled.lattice)));
     }
-    Ok(pictured(straight, &correlated.luminance))
+    Ok(pictured(cloth, luminance))
 }
 
 fn shaped(

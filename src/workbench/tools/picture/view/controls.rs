@@ -34,7 +34,7 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) 
     let found = found.as_deref();
     show_picture(ui, picture, found, commands);
     let cloth = found.and_then(|found| found.cloth.as_deref());
-    repeats::show(ui, &mut picture.draft, cloth);
+    repeats::show(ui, (&mut picture.draft, &mut picture.textures), cloth);
     let shaped = found.and_then(|found| found.shaped.as_deref());
     show_light(ui, &mut picture.draft, shaped);
     show_failure(ui, found, Step::Light);

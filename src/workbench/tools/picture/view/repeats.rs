@@ -1,19 +1,27 @@
 //! The steps from the autocorrelation to the tile: what repeats, and how sure that is.
 
-use eframe::egui::Ui;
+use eframe::egui::{Sense, Stroke, StrokeKind, Ui, vec2};
 
-use crate::kit::theme::STEP;
+use crate::kit::theme::{Palette, ROW, STEP};
 use crate::kit::widgets::fields::{Tone, note, step_title};
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::text::{button, toggle};
 use crate::tools::picture::draft::Draft;
 use crate::tools::picture::found::Cloth;
+use crate::tools::picture::textures::{N_CARDS, Textures};
 use crate::tools::picture::view::controls::slider;
 use selvedge_foundation::quantity::{self, with_unit};
 use selvedge_textile::picture::{Directions, Lattice};
 
+/// The side of a piece of cloth that is offered, points.
+const FOLDED: f32 = 72.0;
+
 /// Directions, lattice and tile.
-pub(super) fn show(ui: &mut Ui, draft: &mut Draft, cloth: Option<&Cloth>) {
+pub(super) fn show(
+    ui: &mut Ui,
+    (draft, textures): (&mut Draft, &mut Textures),
+    cloth: Option<&Cloth>,
+) {
     let directions = cloth.and_then(|cloth| cloth.directions.as_ref());
     let n = cloth.map_or(0, |cloth| cloth.maxima.len());
     ui.add_space(STEP);
@@ -21,10 +29,10 @@ pub(super) fn show(ui: &mut Ui, draft: &mut Draft, cloth: Option<&Cloth>) {
     if let Some(directions) = directions {
         show_directions(ui, draft, directions);
     }
-    match cloth.map(|cloth| &cloth.found) {
-        Some(Ok(tiled)) => {
+    match cloth.map(|cloth| (cloth, &cloth.found)) {
+        Some((cloth, Ok(tiled))) => {
             show_lattice(ui, draft, &tiled.lattice);
-            offered(ui, draft, cloth);
+            offered(ui, draft, cloth, textures);
             let share = tiled
                 .flat_part
                 .map_or(tiled.explained_variance, |(_, share)| share);
@@ -47,12 +55,12 @@ pub(super) fn show(ui: &mut Ui, draft: &mut Draft, cloth: Option<&Cloth>) {
                 note(ui, words, Tone::Wrong);
             }
         }
-        Some(Err(reason)) => {
+        Some((cloth, Err(reason))) => {
             step_title(ui, 4, "Lattice", "none");
             note(ui, &format!("No lattice: {reason}."), Tone::Wrong);
             let words = "Felt as scanned or synthesized all the same.";
             note(ui, words, Tone::Quiet);
-            offered(ui, draft, cloth);
+            offered(ui, draft, cloth, textures);
         }
         None => step_title(ui, 4, "Lattice", ""),
     }
@@ -92,30 +100,43 @@ fn show_lattice(ui: &mut Ui, draft: &Draft, lattice: &Lattice) {
     note(ui, &words, Tone::Quiet);
 }
 
-/// Lattices to choose from, the one that is found first: it takes back what was drawn.
-fn offered(ui: &mut Ui, draft: &mut Draft, cloth: Option<&Cloth>) {
-    let Some([found, others]) = cloth.map(|cloth| &cloth.offered) else {
-        return;
-    };
+/// Lattices to choose from, the one that is found first: it takes back what was drawn. Each shows
+/// the cloth that the picture becomes by it.
+fn offered(ui: &mut Ui, draft: &mut Draft, cloth: &Cloth, textures: &mut Textures) {
     ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing.x = STEP;
-        let mut offer = |name: &str, lattice: &Lattice, chosen: Option<[[f64; 2]; 2]>| {
-            let words = held_out_words(name, lattice);
-            let tip = format!("Lattice {words}: what its cells explain of those beside them");
-            if toggle(ui, &words, draft.lattice == chosen, &tip) {
-                draft.lattice = chosen;
-            }
-        };
-        for lattice in found {
-            offer("found", lattice, None);
-        }
-        for lattice in others {
-            let vector = |[x, y]: [f64; 2]| {
-                let [x, y] = [x, y].map(|px| quantity::fixed(px, 1));
-                format!("({x}, {y})")
+        ui.spacing_mut().item_spacing = vec2(STEP, STEP);
+        for (nth, (lattice, folded)) in cloth.offered.iter().enumerate() {
+            let is_found = nth == 0 && cloth.found_by_itself.is_some();
+            let vectors = [lattice.p1_px, lattice.p2_px];
+            let chosen = (!is_found).then_some(vectors);
+            let name = if is_found {
+                "found".to_owned()
+            } else {
+                let [a, b] = vectors.map(|[x, y]| {
+                    let [x, y] = [x, y].map(|px| quantity::fixed(px, 1));
+                    format!("({x}, {y})")
+                });
+                format!("{a} {b} px")
             };
-            let name = format!("{} {} px", vector(lattice.p1_px), vector(lattice.p2_px));
-            offer(&name, lattice, Some([lattice.p1_px, lattice.p2_px]));
+            let words = held_out_words(&name, lattice);
+            let tip = format!("Lattice {words}: what its cells explain of those beside them");
+            let share = held_out_words("", lattice);
+            let side = vec2(FOLDED, FOLDED);
+            ui.allocate_ui(side + vec2(0.0, ROW), |ui| {
+                ui.vertical(|ui| {
+                    let (rect, response) = ui.allocate_exact_size(side, Sense::click());
+                    textures.paint(ui.painter(), rect, N_CARDS + nth, folded);
+                    let is_chosen = draft.lattice == chosen;
+                    if is_chosen {
+                        let ring = Stroke::new(2.0, Palette::in_ui(ui).selection);
+                        ui.painter().rect_stroke(rect, 0, ring, StrokeKind::Outside);
+                    }
+                    let is_pressed = response.on_hover_text(&tip).clicked();
+                    if toggle(ui, share.trim(), is_chosen, &tip) || is_pressed {
+                        draft.lattice = chosen;
+                    }
+                });
+            });
         }
     });
 }
