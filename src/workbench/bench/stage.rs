@@ -31,6 +31,8 @@ struct Keys {
     port: Option<PathBuf>,
     /// The folder of the log.
     log: Option<PathBuf>,
+    /// Whether nothing moves that nobody moves.
+    still: bool,
 }
 
 impl Default for Keys {
@@ -41,6 +43,7 @@ impl Default for Keys {
             ceiling_percent: CEILING_PERCENT,
             port: None,
             log: None,
+            still: false,
         }
     }
 }
@@ -134,6 +137,11 @@ impl StageOptions {
     /// Largest amplitude as a share of full scale.
     pub fn ceiling(&self) -> f64 {
         self.keys.ceiling_percent / 100.0
+    }
+
+    /// Whether nothing moves that nobody moves: no fading, no trail, no dancing dots.
+    pub(crate) fn is_still(&self) -> bool {
+        self.keys.still
     }
 
     /// The port of the device.

@@ -91,6 +91,21 @@ const DARK: Palette = Palette {
     resting_cloth: Color32::from_rgb(0xd4, 0xd4, 0xd4),
 };
 
+/// The dark colours with more contrast: nothing grey that is to be read.
+const STARK: Palette = Palette {
+    floor: Color32::BLACK,
+    panel: Color32::BLACK,
+    raised: Color32::BLACK,
+    hairline: Color32::WHITE,
+    line: Color32::WHITE,
+    text: Color32::WHITE,
+    dim: Color32::WHITE,
+    faint: Color32::WHITE,
+    danger: Color32::from_rgb(0xff, 0x6a, 0x60),
+    tag: Color32::BLACK,
+    ..DARK
+};
+
 const LIGHT: Palette = Palette {
     floor: Color32::from_rgb(0xe2, 0xe5, 0xe9),
     panel: Color32::from_rgb(0xf6, 0xf7, 0xf9),
@@ -121,6 +136,11 @@ impl Palette {
             egui::Theme::Dark => &DARK,
             egui::Theme::Light => &LIGHT,
         }
+    }
+
+    /// Those of a dark ground with more contrast.
+    pub(crate) fn stark() -> &'static Self {
+        &STARK
     }
 
     /// The colours in force in `ui`.

@@ -56,6 +56,22 @@ fn text_stands_out_from_every_ground_it_is_written_on() {
 }
 
 #[test]
+fn words_on_a_stage_are_read_from_a_metre_away() {
+    for palette in [Palette::of(egui::Theme::Dark), Palette::stark()] {
+        for ground in [palette.floor, palette.raised, palette.hovered, palette.tag] {
+            for ink in [palette.text, palette.faint] {
+                let contrast = contrast(ink, ground);
+                assert!(contrast >= 7.0, "{ink:?} on {ground:?}: {contrast}");
+            }
+        }
+        assert!(contrast(palette.floor, palette.selection) >= 7.0);
+    }
+    for ground in [Palette::stark().floor, Palette::stark().hovered] {
+        assert!(contrast(Palette::stark().line, ground) >= 7.0);
+    }
+}
+
+#[test]
 fn graphics_stand_out_from_panel_and_floor() {
     for palette in both() {
         for ground in [palette.floor, palette.panel] {

@@ -19,7 +19,7 @@ use crate::bench::gain_set::{GainSet, band_gain_mut};
 use crate::bench::pane::Pane;
 use crate::bench::perceptual_level::{SOURCE, mean_um, noticed_db, tuned_factors};
 use crate::bench::tool::{PaneContext, Tool};
-use crate::bench::view::{Cloth, SceneView};
+use crate::bench::view::{Cloth, LibraryDot, SceneView};
 use crate::kit::pane::framed;
 use crate::kit::theme::STEP;
 use crate::kit::widgets::scale::Scale;
@@ -117,7 +117,10 @@ impl LevelBench {
             return;
         }
         let rows: Vec<Row> = placed.iter().map(|one| one.row.clone()).collect();
-        let change = propose(&rows);
+        let library = library(context);
+        let is_other = |id: &str| context.scene.cloths.iter().all(|cloth| cloth.id != id);
+        let others = library.iter().filter(|(dot, _)| is_other(&dot.id));
+        let change = propose(&rows, others.map(|(_, peaks)| peaks));
         let is_change = change
             != Change {
                 own_db: vec![0.0; rows.len()],
@@ -125,7 +128,7 @@ impl LevelBench {
             };
         self.is_proposing &= is_change;
         line(ui, LINE, |ui| {
-            show_headroom(ui, context);
+            show_headroom(ui, &library);
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let none = "Nothing clips and every level is where it is wanted, as far as \
                             anybody would notice";
@@ -241,8 +244,8 @@ fn peaks(bench: &Bench, scene: &SceneView, id: &str, gains_db: [f64; 2]) -> Peak
     }
 }
 
-/// How far the loudest textile of the library is from clipping.
-fn show_headroom(ui: &mut Ui, context: &PaneContext<'_>) {
+/// The textiles of the library and how loud they become, by the scene's gains.
+fn library<'a>(context: &PaneContext<'a>) -> Vec<(&'a LibraryDot, Peaks)> {
     let scene = context.scene;
     let gain_of = |id: &str| {
         let placed = scene.cloths.iter().filter(|cloth| cloth.id == id);
@@ -253,10 +256,16 @@ fn show_headroom(ui: &mut Ui, context: &PaneContext<'_>) {
             if most_db.is_finite() { most_db } else { 0.0 }
         })
     };
-    let of_library = scene.library.iter().filter_map(|dot| {
-        let peaks = peaks(context.bench, scene, &dot.id, gain_of(&dot.id));
-        Some((peaks.headroom_db([0.0; 2])?, &dot.name))
-    });
+    let with_peaks =
+        |dot: &'a LibraryDot| (dot, peaks(context.bench, scene, &dot.id, gain_of(&dot.id)));
+    scene.library.iter().map(with_peaks).collect()
+}
+
+/// How far the loudest textile of the library is from clipping.
+fn show_headroom(ui: &mut Ui, library: &[(&LibraryDot, Peaks)]) {
+    let of_library = library.iter();
+    let of_library =
+        of_library.filter_map(|(dot, peaks)| Some((peaks.headroom_db([0.0; 2])?, &dot.name)));
     let least = of_library.min_by(|one, other| one.0.total_cmp(&other.0));
     let words = match least {
         None => "Headroom –".to_owned(),
@@ -265,12 +274,7 @@ fn show_headroom(ui: &mut Ui, context: &PaneContext<'_>) {
     };
     let first = least.map_or_else(
         || "Being measured".to_owned(),
-        |(_, name)| {
-            format!(
-                "{name} is the loudest of the library’s {}",
-                scene.library.len()
-            )
-        },
+        |(_, name)| format!("{name} is the loudest of the library’s {}", library.len()),
     );
     ui.label(words).on_hover_text(format!(
         "{first}: at its loudest place, in any of the four directions, from 25 to 400 mm/s along \

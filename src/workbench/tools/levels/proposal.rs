@@ -70,14 +70,17 @@ pub(crate) struct Change {
     pub(crate) own_db: Vec<f64>,
 }
 
-/// The change that is proposed; all zero where nothing is to be changed.
-pub(crate) fn propose(rows: &[Row]) -> Change {
+/// The change that is proposed; all zero where nothing is to be changed. Nothing of the set clips
+/// then, nor any other that is heard by the same gains.
+pub(crate) fn propose<'a>(rows: &'a [Row], others: impl Iterator<Item = &'a Peaks>) -> Change {
     let mut change = levelled(rows);
-    let over = rows.iter().zip(&change.own_db).filter_map(|(row, own_db)| {
+    let set = rows.iter().map(|row| &row.peaks).zip(&change.own_db);
+    let over = set.chain(others.zip(std::iter::repeat(&0.0)));
+    let over = over.filter_map(|(peaks, own_db)| {
         let by_db = change
             .band_db
             .map(|band_db| change.master_db + band_db + own_db);
-        Some(-row.peaks.headroom_db(by_db)?)
+        Some(-peaks.headroom_db(by_db)?)
     });
     let over_db = over.fold(0.0, f64::max);
     change.master_db -= (over_db / STEP_DB).ceil() * STEP_DB;
@@ -180,7 +183,7 @@ mod tests {
     #[test]
     fn without_targets_the_set_meets_in_its_mean_and_near_ones_are_left_alone() {
         let rows = [[10.0, 20.0], [16.0, 26.0], [13.5, 23.0]].map(|level| row(level, [None; 2]));
-        let change = propose(&rows);
+        let change = propose(&rows, [].iter());
         assert_eq!((change.master_db, change.band_db), (0.0, [0.0; 2]));
         assert_eq!(change.own_db, [3.1, -2.9, 0.0]);
     }
@@ -191,7 +194,7 @@ mod tests {
             row([10.0, 20.0], [Some(16.0), Some(20.0)]),
             row([12.0, 25.0], [Some(21.0), Some(28.0)]),
         ];
-        let change = propose(&rows);
+        let change = propose(&rows, [].iter());
         for (row, own_db) in rows.iter().zip(&change.own_db) {
             for band in 0..2 {
                 let by_db = change.master_db + change.band_db[band] + own_db;
@@ -208,7 +211,7 @@ mod tests {
             row([10.0, silent], [Some(14.0), Some(20.0)]),
             row([12.0, 25.0], [None, None]),
         ];
-        let change = propose(&rows);
+        let change = propose(&rows, [].iter());
         let on_first = change.master_db + change.band_db[0] + change.own_db[0];
         assert!((on_first - 4.0).abs() < 0.16, "{change:?}");
         assert!(change.own_db.iter().all(|db| db.is_finite()));
@@ -218,7 +221,7 @@ mod tests {
     fn the_master_gives_way_until_nothing_clips() {
         let mut rows = [row([20.0, 20.0], [None; 2]), row([20.0, 20.0], [None; 2])];
         rows[1].peaks = peaks(&[[0.1, 0.1], [0.9, 0.6]]);
-        let change = propose(&rows);
+        let change = propose(&rows, [].iter());
         assert_eq!(change.master_db, -3.6, "1.5 is 3.52 dB too much");
         let by_db = [change.master_db; 2];
         assert!(rows[1].peaks.headroom_db(by_db).unwrap() >= 0.0);
@@ -229,6 +232,21 @@ mod tests {
             "320 Hz is twice its limit: {headroom_db}"
         );
         assert_eq!(Peaks::default().headroom_db([0.0; 2]), None);
-        assert_eq!(propose(&[]), Change::default());
+        assert_eq!(propose(&[], [].iter()), Change::default());
+    }
+
+    #[test]
+    fn the_master_gives_way_to_a_loud_textile_that_is_not_placed() {
+        let rows = [row([20.0, 20.0], [None; 2])];
+        let loud = [peaks(&[[0.9, 0.6]])];
+        assert_eq!(
+            propose(&rows, [].iter()),
+            Change {
+                own_db: vec![0.0],
+                ..Change::default()
+            }
+        );
+        let change = propose(&rows, loud.iter());
+        assert_eq!(change.master_db, -3.6, "1.5 is 3.52 dB too much");
     }
 }

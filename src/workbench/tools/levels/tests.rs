@@ -41,7 +41,7 @@ fn what_is_proposed_levels_the_scene_and_is_one_step_of_undo() {
     let rows: Vec<Row> = before.iter().map(|one| one.row.clone()).collect();
     let bench = &window.workbench.bench;
     let n_steps = bench.document.steps().n_done;
-    let after = changed(&bench.gain_set(), &propose(&rows));
+    let after = changed(&bench.gain_set(), &propose(&rows, [].iter()));
     window.dispatch(Edit::Gains(after));
     window.pass(2);
     let now = levels(&window);

@@ -20,6 +20,19 @@ pub(crate) struct Drawn {
     pub(crate) stop: Option<Rect>,
 }
 
+impl Drawn {
+    /// Lets screen readers read the words that stand by themselves.
+    pub(crate) fn read_out(&self, ui: &Ui) {
+        let is_alone = |place: &Rect| !self.targets.iter().any(|target| target.intersects(*place));
+        let alone = self.lines.iter().filter(|(_, place)| is_alone(place));
+        for (nth, (words, place)) in alone.enumerate() {
+            let id = ui.scope_id().with(("words", nth));
+            let response = ui.interact(*place, id, Sense::hover());
+            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
+        }
+    }
+}
+
 /// How a button looks.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Look {
@@ -29,6 +42,8 @@ pub(crate) struct Look {
     pub(crate) held: f32,
     /// Whether it switches off.
     pub(crate) is_danger: bool,
+    /// Whether it can do nothing here.
+    pub(crate) is_faint: bool,
 }
 
 /// What is drawn where letters have no sign for it.
@@ -104,6 +119,8 @@ impl Brush<'_> {
         let round = 0.12 * rect.height().min(rect.width());
         let (fill, ink) = if look.is_on {
             (palette.selection, palette.floor)
+        } else if look.is_faint {
+            (palette.raised, palette.line)
         } else {
             (palette.raised, palette.text)
         };

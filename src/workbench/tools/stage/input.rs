@@ -78,8 +78,6 @@ pub(crate) struct Senses {
     moved_s: f64,
     /// Fingers that are down.
     fingers: Vec<Finger>,
-    /// How far one that feels moved in this frame, points.
-    stroked: f32,
 }
 
 /// A finger that is down.
@@ -116,7 +114,6 @@ impl Senses {
     ) -> Heard {
         let mut heard = Heard::default();
         self.rings.take(strays, now_s);
-        self.stroked = 0.0;
         ui.input(|input| {
             for event in &input.events {
                 match event {
@@ -168,11 +165,7 @@ impl Senses {
                 self.fingers.push(Finger { id, at, feels });
             }
             (TouchPhase::Move, Some(nth)) => {
-                let finger = &mut self.fingers[nth];
-                let before = std::mem::replace(&mut finger.at, at);
-                if finger.feels {
-                    self.stroked += before.distance(at);
-                }
+                self.fingers[nth].at = at;
             }
             (TouchPhase::End | TouchPhase::Cancel, Some(nth)) => drop(self.fingers.remove(nth)),
             _ => {}
@@ -189,9 +182,10 @@ impl Senses {
         self.fingers.iter().any(|finger| finger.feels)
     }
 
-    /// How far fingers that feel moved in this frame, points.
-    pub(crate) fn stroked(&self) -> f32 {
-        self.stroked
+    /// Where the first finger that feels is.
+    pub(crate) fn felt_at(&self) -> Option<Pos2> {
+        let felt = self.fingers.iter().find(|finger| finger.feels);
+        felt.map(|finger| finger.at)
     }
 
     /// What was used last.

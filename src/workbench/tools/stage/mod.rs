@@ -34,7 +34,7 @@ mod voltage;
 
 use std::time::Duration;
 
-use eframe::egui::{CursorIcon, RawInput, Rect, Theme, Ui};
+use eframe::egui::{CursorIcon, Pos2, RawInput, Rect, Theme, Ui};
 
 use crate::bench::Bench;
 use crate::bench::clock::UNSEEN;
@@ -72,6 +72,8 @@ pub(crate) struct Stage {
     hand: Hand,
     /// Whether what is down came down on what is felt.
     is_down_on_ground: bool,
+    /// Where it was when movement was counted last.
+    counted_at: Option<Pos2>,
     /// The cloths: middles and half widths, mm.
     cloths: Vec<Ground>,
     told: Told,
@@ -80,6 +82,9 @@ pub(crate) struct Stage {
     /// How far its clock is ahead of the bench's: in pictures, s.
     ahead_s: f64,
 }
+
+/// A sleeve that leans on a screen trembles by less, mm: that is no movement.
+const TREMBLE_MM: f64 = 1.0;
 
 impl Stage {
     /// The stage of a bench whose scene has four textiles.
@@ -107,6 +112,7 @@ impl Stage {
             senses: Senses::default(),
             hand: Hand::default(),
             is_down_on_ground: false,
+            counted_at: None,
             cloths,
             told: Told::default(),
             drawn: Drawn::default(),
@@ -146,6 +152,7 @@ impl Stage {
         let told = [self.records.describe(), self.pace.describe()];
         let lines = operator::lines(bench, self.lock.access(), told, self.options.has_pin());
         let wishes = operator::show(ui, &mut brush, &self.lock, &lines, &self.machine);
+        drawn.read_out(ui);
         self.drawn = drawn;
         let now_s = self.machine.now_s();
         for wish in wishes {
@@ -195,14 +202,20 @@ impl Stage {
             input: self.senses.input(),
             has_keyboard: self.senses.has_keyboard,
             rings: &self.senses.rings,
+            is_still: self.options.is_still(),
         };
         let mut brush = Brush {
             painter: ui.painter().clone(),
-            palette: Palette::in_ui(ui),
+            palette: if self.machine.choices().is_large {
+                Palette::stark()
+            } else {
+                Palette::in_ui(ui)
+            },
             layout: self.layout(ui.max_rect()),
             drawn: &mut drawn,
         };
         let wishes = view::show(ui, &mut brush, &shown);
+        drawn.read_out(ui);
         self.drawn = drawn;
         let ground = wishes.ground;
         *context.ground = ground.map(|(rect, view)| PointerGround {
@@ -273,14 +286,22 @@ impl Stage {
             self.hand = Hand::default();
             return;
         };
-        let moved = if self.senses.has_fingers() {
-            self.senses.stroked()
+        let here = if self.senses.has_fingers() {
+            self.senses.felt_at()
         } else {
-            ui.input(|input| input.pointer.delta().length())
+            ui.input(|input| input.pointer.latest_pos())
         };
         self.hand.is_down = self.is_down_on_ground;
-        if self.is_down_on_ground {
-            self.hand.moved_mm += f64::from(moved) / view.points_per_mm.max(1e-6);
+        let here = here.filter(|_| self.is_down_on_ground);
+        let from = here.and(self.counted_at).or(here);
+        let moved_mm = here.zip(from).map_or(0.0, |(here, from)| {
+            f64::from(here.distance(from)) / view.points_per_mm.max(1e-6)
+        });
+        if moved_mm < TREMBLE_MM {
+            self.counted_at = from;
+        } else {
+            self.hand.moved_mm += moved_mm;
+            self.counted_at = here;
         }
         self.hand.cloth = bench.live.cloth_under_display();
     }

@@ -25,7 +25,7 @@ pub(crate) fn show_round(
         .painter
         .rect_filled(question, 0, brush.palette.hovered);
     let sign = question.shrink(0.3 * question.width());
-    let look = (0.5 * question.height(), brush.palette.line);
+    let look = (0.5 * question.height(), brush.palette.faint);
     brush.line(sign, Align2::CENTER_CENTER, look, "?");
     let felt = game.truth().and_then(|truth| shown.scene.cloths.get(truth));
     if let Some(cloth) = felt {

@@ -31,6 +31,8 @@ pub(crate) struct Shown<'a> {
     pub(crate) has_keyboard: bool,
     /// Rings at fingers that hold no display.
     pub(crate) rings: &'a FingerRings,
+    /// Whether nothing moves that nobody moves.
+    pub(crate) is_still: bool,
 }
 
 /// The sign of how loud it is, and how it is read out.
@@ -79,7 +81,11 @@ fn touching_words(shown: &Shown<'_>) -> &'static str {
     if shown.is_resting {
         "Resting. Listen instead."
     } else if machine.chose_sound() {
-        "40 Hz, heard by overtones."
+        match machine.choices().loudness {
+            _ if shown.is_deaf => "No sound here.",
+            None => "Sound is off.",
+            Some(_) => "40 Hz, heard by overtones.",
+        }
     } else if machine.visit_s() < FIRST_WORDS_S {
         "Stroke the cloth."
     } else if machine.n_stroked() >= 2 {

@@ -56,7 +56,7 @@ pub(crate) fn show(ui: &mut Ui, brush: &mut Brush<'_>, shown: &Shown<'_>) -> Wis
     let ring = (brush.palette.faint, 8.0 * brush.layout.mm);
     (shown.rings).paint(&brush.painter, shown.machine.now_s(), ring);
     let fade = to_single(shown.machine.fade());
-    if fade > 0.0 {
+    if fade > 0.0 && !shown.is_still {
         let veil = brush.palette.floor.gamma_multiply(fade);
         brush.painter.rect_filled(brush.layout.whole, 0, veil);
     }
@@ -129,7 +129,9 @@ fn show_watching(brush: &mut Brush<'_>, shown: &Shown<'_>) {
     let layout = brush.layout;
     let look = (layout.label, brush.palette.text);
     let [above, below] = halves(layout.row.shrink(8.0 * layout.unit));
-    brush.line(above, Align2::CENTER_CENTER, look, "Shown 160× slower.");
+    if !shown.is_still {
+        brush.line(above, Align2::CENTER_CENTER, look, "Shown 160× slower.");
+    }
     let Tally { n_guessed, .. } = shown.tally;
     if n_guessed > 0 && shown.machine.watching_s() > LUCK_AFTER_S {
         let words = format!("{n_guessed} people guessed. Luck: 1 in 4.");
@@ -211,10 +213,11 @@ fn show_strip(ui: &Ui, brush: &mut Brush<'_>, shown: &Shown<'_>, acts: &mut Vec<
         }
     }
     let sound = sound_signs(shown);
-    if brush
-        .button(ui, place(STRIP_MM), sound, Look::default())
-        .clicked()
-    {
+    let look = Look {
+        is_faint: shown.is_deaf,
+        ..Look::default()
+    };
+    if brush.button(ui, place(STRIP_MM), sound, look).clicked() {
         acts.push(Act::Sound);
     }
     let look = Look {
@@ -222,7 +225,12 @@ fn show_strip(ui: &Ui, brush: &mut Brush<'_>, shown: &Shown<'_>, acts: &mut Vec<
         ..Look::default()
     };
     if brush
-        .button(ui, place(STRIP_MM), ("Aa", "Larger letters"), look)
+        .button(
+            ui,
+            place(STRIP_MM),
+            ("Aa", "Larger letters, more contrast"),
+            look,
+        )
         .clicked()
     {
         acts.push(Act::Large);
@@ -285,11 +293,13 @@ pub(crate) fn paint_felt(brush: &Brush<'_>, view: &ViewTransform, shown: &Shown<
         view.rect = view.rect.translate(up);
     }
     let ink = (shown.selection, None);
-    if has_ghost {
+    if has_ghost && !shown.is_still {
         let slow = slowed(shown.live, shown.machine.now_s());
         return paint_display::paint(&painter, &view, &slow, ink);
     }
-    paint_display::paint_trail(&painter, &view, shown.trail.aged());
+    if !shown.is_still {
+        paint_display::paint_trail(&painter, &view, shown.trail.aged());
+    }
     paint_display::paint(&painter, &view, shown.live, ink);
 }
 
