@@ -259,8 +259,10 @@ impl Drape {
         }
     }
 
-    pub(crate) fn points(&self, finger: usize) -> Option<&[Point]> {
-        Some(&self.cloth.fingers().get(finger)?.points)
+    /// The points of a finger's pad, and how far each had slipped a step ago, m.
+    pub(crate) fn points(&self, finger: usize) -> Option<(&[Point], &[[f64; 2]])> {
+        let points = &self.cloth.fingers().get(finger)?.points;
+        Some((points, &self.slipped_m[finger]))
     }
 
     pub(crate) fn ticked_mut(&mut self, finger: usize) -> &mut [[f64; 2]; 24] {
@@ -436,7 +438,7 @@ mod tests {
                 hands[0].centre_mm[0] += 0.5;
                 assert_no_alloc::assert_no_alloc(|| {
                     drape.step(&hands).unwrap();
-                    drape.tick_contacts(0, &mut contacts);
+                    drape.tick_contacts((0, drape.t_s()), &mut contacts);
                     drape.feel(&hands, &mut forces_n);
                     felt += drape.finger(0).n_contacts + contacts.iter().flatten().count();
                 });
