@@ -55,8 +55,8 @@ pub(crate) struct Point {
 }
 
 impl Finger {
-    /// Mass of a proxy, kg.
-    pub(crate) const MASS_KG: f64 = super::coupling::PROXY_KG;
+    /// Stiffness that its points add at most, Pa/m: across and along the cloth.
+    pub(crate) const STIFFNESS_PA_PER_M: f64 = PULP_PA_PER_M + ALONG_PA_PER_M;
 
     pub(crate) fn new(
         node: usize,
