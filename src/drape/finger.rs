@@ -300,7 +300,7 @@ impl Finger {
     pub(crate) fn stiffness_per_kg(&self, density_kg_per_m2: f64) -> f64 {
         let touches = self.points.iter().any(|point| point.spot.is_some());
         if touches {
-            (PULP_PA_PER_M + ALONG_PA_PER_M) / density_kg_per_m2
+            Self::STIFFNESS_PA_PER_M / density_kg_per_m2
         } else {
             0.0
         }
