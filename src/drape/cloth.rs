@@ -86,7 +86,6 @@ pub(crate) struct Cloth {
     pub(crate) angles: Vec<f64>,
     /// How many steps `past` can be relied on.
     pub(crate) n_past: usize,
-    touched: bool,
     /// Whether velocities are those between two places, as explicit steps have them.
     pub(crate) is_staggered: bool,
     /// Whether the place now is what was evaluated last.
@@ -130,7 +129,6 @@ impl Cloth {
             angles: past.angles.clone(),
             past: [past.clone(), past],
             n_past: 0,
-            touched: false,
             is_staggered: false,
             is_evaluated: false,
             rests_s: 0.0,
@@ -274,15 +272,10 @@ impl Cloth {
         } else {
             self.rests_s + step_s
         };
-        let touched = self
-            .system
-            .fingers
-            .iter()
-            .any(|finger| finger.press_n() > 0.0);
         // The formula of second order would look back across the event.
-        let is_new = touched && !self.touched;
+        let fingers = self.system.fingers.iter_mut();
+        let is_new = fingers.fold(false, |is_new, finger| finger.has_come() || is_new);
         self.n_past = if is_new { 0 } else { (self.n_past + 1).min(2) };
-        self.touched = touched;
     }
 
     /// Energy of all, J: in motion, stored, and in the field of gravity.

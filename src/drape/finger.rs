@@ -34,6 +34,10 @@ pub(crate) struct Finger {
     pub(crate) friction: f64,
     half_thickness_m: f64,
     pub(crate) coupling: Coupling,
+    /// Whether it pressed when last asked.
+    pressed: bool,
+    /// Whether it is only led: it touches nothing, and nothing pulls at the hand.
+    is_led_only: bool,
 }
 
 /// A point of the pad.
@@ -86,6 +90,8 @@ impl Finger {
             friction: fabric.friction,
             half_thickness_m: 0.5 * fabric.compression.thickness_m,
             coupling: Coupling::default(),
+            pressed: false,
+            is_led_only: false,
         }
     }
 
@@ -97,6 +103,7 @@ impl Finger {
 
     /// Leads it towards a place over a step, not faster than it may. A place that is no number
     /// leaves it where it is.
+        self.pressed = other.pressed;
     pub(crate) fn lead(&mut self, to: Vector, step_s: f64) {
         let moved = led(self.target, to, step_s);
         self.target += moved;
@@ -290,6 +297,12 @@ impl Finger {
     pub(crate) fn is_behind(&self) -> bool {
         self.side.unwrap_or(self.own_side) < 0.0
     }
+    /// Whether it touches the cloth and did not when last asked.
+    pub(crate) fn has_come(&mut self) -> bool {
+        let presses = self.press_n() > 0.0;
+        !std::mem::replace(&mut self.pressed, presses) && presses
+    }
+
 
     /// Whether it is so near that the cloth has to be awake.
     pub(crate) fn is_near(&self) -> bool {
