@@ -104,7 +104,10 @@ pub(crate) struct Cloth {
 
 impl Cloth {
     /// A cloth at rest in its own plane, fingers where they start.
-    pub(crate) fn new(system: System, stepping: Stepping) -> Self {
+    pub(crate) fn new(mut system: System, stepping: Stepping) -> Self {
+        if !stepping.integrator.has_touch() {
+            system.fingers.iter_mut().for_each(Finger::lead_only);
+        }
         let targets = system.fingers.iter().map(|finger| finger.target);
         let x: Vec<Vector> = system.sheet.mesh.at_rest().chain(targets).collect();
         let zeros = vec![Vector::zeros(); x.len()];
@@ -294,8 +297,14 @@ impl Cloth {
         } else {
             0.0
         };
-        let v = (0..self.v.len()).map(|node| self.pushed(node, since_s));
         let system = &self.system;
+        // The motion of a finger that is only led is nobody's energy.
+        let n_moving = if self.stepping.integrator.has_touch() {
+            self.v.len()
+        } else {
+            system.sheet.mesh.n_vertices()
+        };
+        let v = (0..n_moving).map(|node| self.pushed(node, since_s));
         system.kinetic_j(v) + system.energy.stored + system.height_j(&self.x, self.gravity)
     }
 

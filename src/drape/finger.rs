@@ -95,15 +95,20 @@ impl Finger {
         }
     }
 
+    /// Lets it touch nothing from now on.
+    pub(crate) fn lead_only(&mut self) {
+        self.is_led_only = true;
+    }
+
     /// Goes on where a finger of the same form is, with all that it holds.
     pub(crate) fn take_up(&mut self, other: &Self) {
         (self.target, self.side, self.below) = (other.target, other.side, other.below);
+        self.pressed = other.pressed;
         self.points.clone_from(&other.points);
     }
 
     /// Leads it towards a place over a step, not faster than it may. A place that is no number
     /// leaves it where it is.
-        self.pressed = other.pressed;
     pub(crate) fn lead(&mut self, to: Vector, step_s: f64) {
         let moved = led(self.target, to, step_s);
         self.target += moved;
@@ -117,6 +122,9 @@ impl Finger {
 
     /// Begins a step: the coupling's spring and damper become one spring.
     pub(crate) fn begin(&mut self, lag: &Lag) {
+        if self.is_led_only {
+            return;
+        }
         let hand = (self.target, self.target_speed);
         self.coupling = Coupling::new(hand, lag.hat[self.node], lag.sigma);
     }
@@ -133,6 +141,9 @@ impl Finger {
 
     /// Finds what it touches; says whether that is anything.
     pub(crate) fn look(&mut self, mesh: &Mesh, x: &[Vector]) -> bool {
+        if self.is_led_only {
+            return false;
+        }
         let apex = x[self.node];
         self.below = find(mesh, x, apex, self.below.map(|spot| spot.place));
         let gap = self.below.map(|spot| spot.normal.dot(&(apex - spot.at(x))));
@@ -201,6 +212,9 @@ impl Finger {
 
     /// The coupling's energy: what the spring holds is stored, the rest is damping's.
     fn couple(&mut self, x: &[Vector], grad: &mut [Vector]) -> Energy {
+        if self.is_led_only {
+            return Energy::default();
+        }
         let value = self.coupling.pull(x[self.node]);
         grad[self.node] += self.coupling.force;
         let stored = Coupling::stored_j((x[self.node] - self.target).norm());
@@ -283,6 +297,12 @@ impl Finger {
             .sum()
     }
 
+    /// Whether it touches the cloth and did not when last asked.
+    pub(crate) fn has_come(&mut self) -> bool {
+        let presses = self.press_n() > 0.0;
+        !std::mem::replace(&mut self.pressed, presses) && presses
+    }
+
     /// Unit normal of the cloth below it, towards the finger; `None` where it touches nothing.
     pub(crate) fn normal(&self) -> Option<Vector> {
         let touched = self.points.iter().filter_map(|point| {
@@ -297,12 +317,6 @@ impl Finger {
     pub(crate) fn is_behind(&self) -> bool {
         self.side.unwrap_or(self.own_side) < 0.0
     }
-    /// Whether it touches the cloth and did not when last asked.
-    pub(crate) fn has_come(&mut self) -> bool {
-        let presses = self.press_n() > 0.0;
-        !std::mem::replace(&mut self.pressed, presses) && presses
-    }
-
 
     /// Whether it is so near that the cloth has to be awake.
     pub(crate) fn is_near(&self) -> bool {
