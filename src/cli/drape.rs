@@ -270,11 +270,18 @@ impl ForcesOut {
             let mut row = drape.force_row(finger, self.energy_j);
             if self.is_between {
                 row[0] = t_s;
+            }
+            if self.is_between && drape.has_touch() {
                 row[2..5].copy_from_slice(&self.between_n[finger]);
             }
             let rows = self.table.rows();
             for value in row {
-                rows.number(value);
+                // What is not told stays empty.
+                if value.is_nan() {
+                    rows.text("");
+                } else {
+                    rows.number(value);
+                }
             }
             rows.end_row()?;
         }

@@ -86,7 +86,6 @@ pub(crate) struct Cloth {
     pub(crate) angles: Vec<f64>,
     /// How many steps `past` can be relied on.
     pub(crate) n_past: usize,
-    touched: bool,
     /// Whether velocities are those between two places, as explicit steps have them.
     pub(crate) is_staggered: bool,
     /// Whether the place now is what was evaluated last.
@@ -105,7 +104,10 @@ pub(crate) struct Cloth {
 
 impl Cloth {
     /// A cloth at rest in its own plane, fingers where they start.
-    pub(crate) fn new(system: System, stepping: Stepping) -> Self {
+    pub(crate) fn new(mut system: System, stepping: Stepping) -> Self {
+        if !stepping.integrator.has_touch() {
+            system.fingers.iter_mut().for_each(Finger::lead_only);
+        }
         let targets = system.fingers.iter().map(|finger| finger.target);
         let x: Vec<Vector> = system.sheet.mesh.at_rest().chain(targets).collect();
         let zeros = vec![Vector::zeros(); x.len()];
@@ -130,7 +132,6 @@ impl Cloth {
             angles: past.angles.clone(),
             past: [past.clone(), past],
             n_past: 0,
-            touched: false,
             is_staggered: false,
             is_evaluated: false,
             rests_s: 0.0,
@@ -274,15 +275,10 @@ impl Cloth {
         } else {
             self.rests_s + step_s
         };
-        let touched = self
-            .system
-            .fingers
-            .iter()
-            .any(|finger| finger.press_n() > 0.0);
         // The formula of second order would look back across the event.
-        let is_new = touched && !self.touched;
+        let fingers = self.system.fingers.iter_mut();
+        let is_new = fingers.fold(false, |is_new, finger| finger.has_come() || is_new);
         self.n_past = if is_new { 0 } else { (self.n_past + 1).min(2) };
-        self.touched = touched;
     }
 
     /// Energy of all, J: in motion, stored, and in the field of gravity.
@@ -301,8 +297,14 @@ impl Cloth {
         } else {
             0.0
         };
-        let v = (0..self.v.len()).map(|node| self.pushed(node, since_s));
         let system = &self.system;
+        // The motion of a finger that is only led is nobody's energy.
+        let n_moving = if self.stepping.integrator.has_touch() {
+            self.v.len()
+        } else {
+            system.sheet.mesh.n_vertices()
+        };
+        let v = (0..n_moving).map(|node| self.pushed(node, since_s));
         system.kinetic_j(v) + system.energy.stored + system.height_j(&self.x, self.gravity)
     }
 

@@ -89,7 +89,7 @@ impl Felt {
         self.tick = 0;
     }
 
-    /// Renders the tick that a step has come to, if it has, and tells what each finger is given.
+    /// Renders the ticks that a step has come to, if it has, and tells what each finger is given.
     ///
     /// # Errors
     /// Those of `each`.
@@ -98,46 +98,53 @@ impl Felt {
         drape: &mut Drape,
         mut each: impl FnMut(FeltTick<'_>) -> Result<(), E>,
     ) -> Result<(), E> {
-        if drape.t_s() < (self.tick + 1) as f64 / TICKS_PER_S - 1e-9 {
-            return Ok(());
-        }
-        self.tick += 1;
         let mut contacts = [None; 24];
-        for finger in 0..self.n_fingers {
-            drape.tick_contacts(finger, &mut contacts);
-            let surface = drape.surface(finger);
-            let Some(frame) = self.renderer.touch((finger, surface), &contacts) else {
-                continue;
-            };
-            each(FeltTick {
-                tick: self.tick,
-                finger,
-                surface,
-                contacts: &contacts,
-                frame,
-            })?;
+        loop {
+            let tick_s = (self.tick + 1) as f64 / TICKS_PER_S;
+            if drape.t_s() < tick_s - 1e-9 {
+                return Ok(());
+            }
+            self.tick += 1;
+            for finger in 0..self.n_fingers {
+                drape.tick_contacts((finger, tick_s), &mut contacts);
+                let surface = drape.surface(finger);
+                let Some(frame) = self.renderer.touch((finger, surface), &contacts) else {
+                    continue;
+                };
+                each(FeltTick {
+                    tick: self.tick,
+                    finger,
+                    surface,
+                    contacts: &contacts,
+                    frame,
+                })?;
+            }
         }
-        Ok(())
     }
 }
 
 impl Drape {
-    /// What each contactor of a finger touches at a tick of its display, with how far it slipped
-    /// since the tick before: exactly still where friction holds it. `None` where it is off the
-    /// cloth or presses with less than 50 Pa.
+    /// What each contactor of a finger touches at a tick of its display, s, within the last step,
+    /// with how far it slipped since the tick before: exactly still where friction holds it. `None`
+    /// where it is off the cloth or presses with less than 50 Pa.
     pub(crate) fn tick_contacts(
         &mut self,
-        finger: usize,
+        (finger, tick_s): (usize, f64),
         contacts: &mut [Option<MaterialContact>; 24],
     ) {
         contacts.fill(None);
-        let Some(points) = self.points(finger) else {
+        let Some((points, step_ago_m)) = self.points(finger) else {
             return;
         };
+        // Ticks fall between steps of 2 ms: what slipped after one belongs to the next.
+        let late = ((self.t_s() - tick_s) / self.step_s()).clamp(0.0, 1.0);
         let mut now = [[0.0; 2]; 24];
         for ((point, now), contact) in contactors().zip(&mut now).zip(contacts.iter_mut()) {
-            let point = &points[point];
-            *now = point.slipped_m;
+            let (point, before) = (&points[point], step_ago_m[point]);
+            *now = [0, 1].map(|axis| {
+                let slipped = point.slipped_m[axis];
+                slipped - late * (slipped - before[axis])
+            });
             *contact = point
                 .spot
                 .filter(|_| point.is_felt())

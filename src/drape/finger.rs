@@ -34,6 +34,10 @@ pub(crate) struct Finger {
     pub(crate) friction: f64,
     half_thickness_m: f64,
     pub(crate) coupling: Coupling,
+    /// Whether it pressed when last asked.
+    pressed: bool,
+    /// Whether it is only led: it touches nothing, and nothing pulls at the hand.
+    is_led_only: bool,
 }
 
 /// A point of the pad.
@@ -55,8 +59,8 @@ pub(crate) struct Point {
 }
 
 impl Finger {
-    /// Mass of a proxy, kg.
-    pub(crate) const MASS_KG: f64 = super::coupling::PROXY_KG;
+    /// Stiffness that its points add at most, Pa/m: across and along the cloth.
+    pub(crate) const STIFFNESS_PA_PER_M: f64 = PULP_PA_PER_M + ALONG_PA_PER_M;
 
     pub(crate) fn new(
         node: usize,
@@ -86,12 +90,20 @@ impl Finger {
             friction: fabric.friction,
             half_thickness_m: 0.5 * fabric.compression.thickness_m,
             coupling: Coupling::default(),
+            pressed: false,
+            is_led_only: false,
         }
+    }
+
+    /// Lets it touch nothing from now on.
+    pub(crate) fn lead_only(&mut self) {
+        self.is_led_only = true;
     }
 
     /// Goes on where a finger of the same form is, with all that it holds.
     pub(crate) fn take_up(&mut self, other: &Self) {
         (self.target, self.side, self.below) = (other.target, other.side, other.below);
+        self.pressed = other.pressed;
         self.points.clone_from(&other.points);
     }
 
@@ -110,6 +122,9 @@ impl Finger {
 
     /// Begins a step: the coupling's spring and damper become one spring.
     pub(crate) fn begin(&mut self, lag: &Lag) {
+        if self.is_led_only {
+            return;
+        }
         let hand = (self.target, self.target_speed);
         self.coupling = Coupling::new(hand, lag.hat[self.node], lag.sigma);
     }
@@ -126,6 +141,9 @@ impl Finger {
 
     /// Finds what it touches; says whether that is anything.
     pub(crate) fn look(&mut self, mesh: &Mesh, x: &[Vector]) -> bool {
+        if self.is_led_only {
+            return false;
+        }
         let apex = x[self.node];
         self.below = find(mesh, x, apex, self.below.map(|spot| spot.place));
         let gap = self.below.map(|spot| spot.normal.dot(&(apex - spot.at(x))));
@@ -194,6 +212,9 @@ impl Finger {
 
     /// The coupling's energy: what the spring holds is stored, the rest is damping's.
     fn couple(&mut self, x: &[Vector], grad: &mut [Vector]) -> Energy {
+        if self.is_led_only {
+            return Energy::default();
+        }
         let value = self.coupling.pull(x[self.node]);
         grad[self.node] += self.coupling.force;
         let stored = Coupling::stored_j((x[self.node] - self.target).norm());
@@ -276,6 +297,12 @@ impl Finger {
             .sum()
     }
 
+    /// Whether it touches the cloth and did not when last asked.
+    pub(crate) fn has_come(&mut self) -> bool {
+        let presses = self.press_n() > 0.0;
+        !std::mem::replace(&mut self.pressed, presses) && presses
+    }
+
     /// Unit normal of the cloth below it, towards the finger; `None` where it touches nothing.
     pub(crate) fn normal(&self) -> Option<Vector> {
         let touched = self.points.iter().filter_map(|point| {
@@ -300,7 +327,7 @@ impl Finger {
     pub(crate) fn stiffness_per_kg(&self, density_kg_per_m2: f64) -> f64 {
         let touches = self.points.iter().any(|point| point.spot.is_some());
         if touches {
-            (PULP_PA_PER_M + ALONG_PA_PER_M) / density_kg_per_m2
+            Self::STIFFNESS_PA_PER_M / density_kg_per_m2
         } else {
             0.0
         }

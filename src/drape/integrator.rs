@@ -50,9 +50,17 @@ impl Integrator {
                 (Self::Bdf2, largest_s, why)
             }
             Self::Explicit => (self, safe_s.min(1e-3), "as asked".to_owned()),
-            Self::Xpbd => (self, 1.0 / 2400.0, "as asked".to_owned()),
+            Self::Xpbd => (self, 1.0 / 2400.0, "for pictures only".to_owned()),
             _ => (self, largest_s, "as asked".to_owned()),
         }
+    }
+}
+
+impl Integrator {
+    /// Whether fingers touch a cloth that is stepped so: else they are led, and there is no force
+    /// to tell.
+    pub(crate) fn has_touch(self) -> bool {
+        !matches!(self, Self::Xpbd | Self::Projective)
     }
 }
 

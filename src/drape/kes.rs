@@ -55,7 +55,8 @@ pub(crate) fn along(figures: &Figures, symbol: &str, suffix: &str) -> Option<[f6
     }
 }
 
-fn mean(figures: &Figures, symbol: &str, suffix: &str) -> Option<f64> {
+/// The mean of warp and weft.
+pub(crate) fn mean(figures: &Figures, symbol: &str, suffix: &str) -> Option<f64> {
     along(figures, symbol, suffix).map(|[warp, weft]| 0.5 * (warp + weft))
 }
 

@@ -9,8 +9,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::cloth::Cloth;
-use super::coupling::{Coupling, led};
-use super::finger::Finger;
+use super::coupling::{Coupling, PROXY_KG, led};
 use super::mesh::Vector;
 
 /// Between ticks, s.
@@ -86,7 +85,7 @@ impl Local {
                 let inertia = (x[n_cloth + node] - lag.free[n_cloth + node]) * lag.mu;
                 let coupled = system.fingers[node].coupling.force;
                 let all = newton.grad[n_cloth + node];
-                own.known_n = inertia * Finger::MASS_KG + coupled - all;
+                own.known_n = inertia * PROXY_KG + coupled - all;
             }
             let met = newton.met_by_fingers(system, x);
             self.met = SMatrix::from_fn(|row, column| 0.5 * (met[row][column] + met[column][row]));
@@ -173,7 +172,7 @@ impl Local {
 
     /// Implicit Euler over a tick: inertia, coupling as it pulls at `x`, and the cloth's answer.
     fn solved(&mut self, x: SVector<f64, 6>) -> SVector<f64, 6> {
-        let weight = Finger::MASS_KG / (TICK_S * TICK_S);
+        let weight = PROXY_KG / (TICK_S * TICK_S);
         let (mut matrix, mut side) = (self.met, self.answered(SVector::zeros()));
         for (nth, own) in self.fingers.iter_mut().enumerate() {
             own.coupling.pull(x.fixed_rows::<3>(3 * nth).into());

@@ -138,33 +138,6 @@ impl Mesh {
         [along(1), along(0)]
     }
 
-    /// All that joins `reach + 1` vertices along an axis, row by row: its index, its first vertex,
-    /// the width that it stands for, m.
-    pub(crate) fn lines(
-        &self,
-        axis: usize,
-        reach: usize,
-    ) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
-        let [rows, columns] = self.spans(axis, reach);
-        (0..rows).flat_map(move |row| {
-            (0..columns).map(move |column| {
-                let index = row * columns + column;
-                let width_m = self.width_m(axis, [row, column]);
-                (index, row * self.n[0] + column, width_m)
-            })
-        })
-    }
-
-    /// Width that a line along an axis stands for, m: half at free edges.
-    pub(crate) fn width_m(&self, axis: usize, [row, column]: [usize; 2]) -> f64 {
-        let (line, n) = if axis == 0 {
-            (row, self.n[1])
-        } else {
-            (column, self.n[0])
-        };
-        self.h[1 - axis] * half_at_ends(line, n)
-    }
-
     /// The cell below a material place, and where in it, 0…1; `None` off the cloth.
     pub(crate) fn cell_at(&self, [u, w]: [f64; 2]) -> Option<(usize, [f64; 2])> {
         let scaled = [u / self.h[0], w / self.h[1]];

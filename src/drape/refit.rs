@@ -16,7 +16,7 @@ impl DrapeScene {
         match key {
             FRICTION => Some(self.fabric.friction),
             "t0_mm" => Some(1e3 * self.fabric.compression.thickness_m),
-            _ => mean(&self.figures, key),
+            _ => of_key(&self.figures, key),
         }
     }
 
@@ -34,11 +34,11 @@ impl DrapeScene {
                         &mut figures,
                         "2hg5_gf_per_cm",
                         value,
-                        mean(&self.figures, key),
+                        of_key(&self.figures, key),
                     );
-                    set(&mut figures, key, value, mean(&self.figures, key));
+                    set(&mut figures, key, value, of_key(&self.figures, key));
                 }
-                _ => set(&mut figures, key, value, mean(&self.figures, key)),
+                _ => set(&mut figures, key, value, of_key(&self.figures, key)),
             }
         }
         DrapeError::within((FRICTION, friction, ""), [0.0, 10.0])?;
@@ -115,9 +115,9 @@ fn parts(key: &str) -> (&str, &str) {
     key.split_at(key.find('_').unwrap_or(key.len()))
 }
 
-fn mean(figures: &Figures, key: &str) -> Option<f64> {
+fn of_key(figures: &Figures, key: &str) -> Option<f64> {
     let (symbol, suffix) = parts(key);
-    kes::along(figures, symbol, suffix).map(|[warp, weft]| 0.5 * (warp + weft))
+    kes::mean(figures, symbol, suffix)
 }
 
 /// Brings a figure from its mean before to another, or scales one by that of another key.

@@ -205,6 +205,9 @@ impl Drape {
     /// steps are longer than that, hands are not to wait for them. Says the forces on the hands, N.
     /// Allocates nothing.
     pub fn feel(&mut self, hands: &[Hand], forces_n: &mut [[f64; 3]]) {
+        if !self.has_touch() {
+            return forces_n.fill([0.0; 3]);
+        }
         self.aim(hands);
         let (local, has_learned) = &mut self.local;
         if !std::mem::replace(has_learned, true) {
@@ -237,6 +240,12 @@ impl Drape {
         (self.cloth.stepping.integrator, &self.why)
     }
 
+    /// Whether fingers touch the cloth: by XPBD and projective dynamics they are only led, and
+    /// there are no forces to tell.
+    pub fn has_touch(&self) -> bool {
+        self.cloth.stepping.integrator.has_touch()
+    }
+
     /// What a finger feels.
     pub fn finger(&self, index: usize) -> FingerRow {
         let Some(finger) = self.cloth.fingers().get(index) else {
@@ -259,8 +268,10 @@ impl Drape {
         }
     }
 
-    pub(crate) fn points(&self, finger: usize) -> Option<&[Point]> {
-        Some(&self.cloth.fingers().get(finger)?.points)
+    /// The points of a finger's pad, and how far each had slipped a step ago, m.
+    pub(crate) fn points(&self, finger: usize) -> Option<(&[Point], &[[f64; 2]])> {
+        let points = &self.cloth.fingers().get(finger)?.points;
+        Some((points, &self.slipped_m[finger]))
     }
 
     pub(crate) fn ticked_mut(&mut self, finger: usize) -> &mut [[f64; 2]; 24] {
@@ -302,13 +313,18 @@ impl Drape {
         "iterations",
     ];
 
-    /// The row of a finger after a step; one of no finger where there is none.
+    /// The row of a finger after a step; one of no finger where there is none. What is not told of
+    /// fingers that touch nothing is no number.
     pub fn force_row(&self, finger: usize, energy_j: f64) -> [f64; 9] {
         let felt = self.finger(finger);
         let [fx_n, fy_n, fz_n] = felt.force_n;
-        let (n_contacts, iterations) = (felt.n_contacts as f64, self.iterations() as f64);
         let slip = felt.slip_mm_per_s;
-        let (t_s, finger) = (self.t_s(), finger as f64);
+        let mut told = [fx_n, fy_n, fz_n, felt.n_contacts as f64, slip];
+        if !self.has_touch() {
+            told = [f64::NAN; 5];
+        }
+        let [fx_n, fy_n, fz_n, n_contacts, slip] = told;
+        let (t_s, finger, iterations) = (self.t_s(), finger as f64, self.iterations() as f64);
         [
             t_s, finger, fx_n, fy_n, fz_n, n_contacts, slip, energy_j, iterations,
         ]
@@ -436,13 +452,20 @@ mod tests {
                 hands[0].centre_mm[0] += 0.5;
                 assert_no_alloc::assert_no_alloc(|| {
                     drape.step(&hands).unwrap();
-                    drape.tick_contacts(0, &mut contacts);
+                    drape.tick_contacts((0, drape.t_s()), &mut contacts);
                     drape.feel(&hands, &mut forces_n);
                     felt += drape.finger(0).n_contacts + contacts.iter().flatten().count();
                 });
             }
-            let touches = !matches!(integrator, Integrator::Xpbd | Integrator::Projective);
-            assert!(!touches || felt > 40, "{integrator:?}: {felt}");
+            if integrator.has_touch() {
+                assert!(felt > 40, "{integrator:?}: {felt}");
+                continue;
+            }
+            // Led through the cloth: nothing is felt, told or put in.
+            let row = drape.force_row(0, 0.0);
+            assert!(row[2..7].iter().all(|cell| cell.is_nan()), "{row:?}");
+            assert_eq!((felt, forces_n), (0, [[0.0; 3]; 2]), "{integrator:?}");
+            assert_eq!(drape.energy_j()[1], 0.0, "{integrator:?}");
         }
     }
 }

@@ -18,6 +18,8 @@ use selvedge_textile::Library;
 
 /// Widest spacing of a grid that is chosen, m.
 const LIVE_SPACING_M: f64 = 8e-3;
+/// What XPBD and projective dynamics leave out.
+const UNTOUCHED: &str = "fingers touch nothing, and no force is told";
 /// Most fingers.
 const MAX_FINGERS: usize = 2;
 
@@ -176,24 +178,35 @@ impl DrapeScene {
         let figures = kes::of_textile(id, None)?;
         let (fabric, notes) = Fabric::of_figures(&figures)?;
         Ok(Self {
-            name: id.to_owned(),
             textile: Some(id.to_owned()),
+            figures,
+            notes,
+            ..Self::plain(id.to_owned(), &fabric)
+        })
+    }
+
+    /// A scene of a cloth about which nothing is said.
+    fn plain(name: String, fabric: &Fabric) -> Self {
+        Self {
+            name,
+            textile: None,
             back: None,
             library_folder: None,
             size_mm: usual_size_mm(),
             grid: None,
             pins: Pins::Top,
             losses: Losses::default(),
-            integrator: Integrator::Auto,
+            integrator: Integrator::default(),
             step_ms: None,
-            figures,
-            fabric,
-            notes,
+            figures: Figures::new(),
+            fabric: *fabric,
+            notes: Vec::new(),
             fingers: Vec::new(),
-        })
+        }
     }
 
     fn from_keys(keys: SceneKeys, fabric: &Fabric) -> Result<Self, Flaw> {
+        let plain = Self::plain(keys.name, fabric);
         let grid = match keys.grid {
             None => None,
             Some(GridKey::Word(word)) if word == "auto" => None,
@@ -208,10 +221,13 @@ impl DrapeScene {
             Some(GridKey::Vertices(vertices)) => Some(vertices),
         };
         let pins = Pins::named(keys.pins.as_deref())?;
-        let named: Result<Integrator, String> =
-            keys.integrator.as_deref().unwrap_or("auto").parse();
-        let integrator = named
-            .map_err(|mend| Flaw::new(("", 0, "integrator"), "this is no integrator", mend))?;
+        let named = keys
+            .integrator
+            .as_deref()
+            .map_or(Ok(plain.integrator), str::parse);
+        let integrator = named.map_err(|mend: String| {
+            Flaw::new(("", 0, "integrator"), "this is no integrator", mend)
+        })?;
         if keys.step_ms.is_some_and(|ms| !(1e-3..=1e3).contains(&ms)) {
             let mend = "give 0.001 to 1000 ms";
             return Err(Flaw::new(("", 0, "step_ms"), "this is no step", mend));
@@ -227,24 +243,20 @@ impl DrapeScene {
         let fingers = keys.fingers.into_iter().enumerate();
         let fingers = fingers.map(|(nth, keys)| FingerSpec::from_keys(keys, nth));
         Ok(Self {
-            name: keys.name,
             textile: keys.textile,
             back: keys.back,
-            library_folder: None,
             size_mm: keys.size_mm,
             grid,
             pins,
             losses: Losses {
-                has_air: keys.air.unwrap_or(true),
-                has_hysteresis: keys.hysteresis.unwrap_or(false),
-                ..Losses::default()
+                has_air: keys.air.unwrap_or(plain.losses.has_air),
+                has_hysteresis: keys.hysteresis.unwrap_or(plain.losses.has_hysteresis),
+                ..plain.losses
             },
             integrator,
             step_ms: keys.step_ms,
-            figures: Figures::new(),
-            fabric: *fabric,
-            notes: Vec::new(),
             fingers: fingers.collect::<Result<_, _>>()?,
+            ..plain
         })
     }
 
@@ -307,20 +319,22 @@ impl DrapeScene {
         let mesh = self.mesh()?;
         let n_vertices = mesh.n_vertices();
         let sheet = Sheet::new(mesh, &self.fabric, self.losses);
-        let limit_s = sheet.limit_s(0.0);
+        // Under all its fingers: what is chosen is not to be refused once they touch.
+        let contact = self.fingers.len() as f64 * Finger::STIFFNESS_PA_PER_M;
+        let limit_s = sheet.limit_s(contact / self.fabric.density_kg_per_m2);
         let asked = integrator.unwrap_or(self.integrator);
         let (chosen, usual_s, why) = asked.chosen(n_vertices, limit_s);
         let step_s = step_s
             .or_else(|| self.step_ms.map(|ms| 1e-3 * ms))
             .unwrap_or(usual_s);
         DrapeError::within(("step", 1e3 * step_s, "ms"), [1e-3, 1e3])?;
-        let why = if chosen == Integrator::Xpbd {
-            format!(
-                "yarns act {:.3} times softer: for pictures only",
-                sheet.softening(step_s)
-            )
-        } else {
-            why
+        let why = match chosen {
+            Integrator::Xpbd => {
+                let softer = sheet.softening(step_s);
+                format!("yarns act {softer:.3} times softer: {why}; {UNTOUCHED}")
+            }
+            Integrator::Projective => format!("{why}; {UNTOUCHED}"),
+            _ => why,
         };
         let fingers = self.fingers.iter().enumerate().map(|(nth, spec)| {
             let form = (spec.side, spec.rotation_deg);
@@ -393,87 +407,4 @@ impl FingerSpec {
 /// An error of a value as one of the place where it stands.
 fn placed(place: files::Place, error: &DrapeError) -> Flaw {
     Flaw::described(place, &error.to_string(), "correct it")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use selvedge_scratch::ScratchFolder;
-
-    #[test]
-    fn every_shipped_textile_has_figures_that_fit() {
-        for id in Library::shipped().unwrap().ids() {
-            let scene = DrapeScene::of_textile(id).unwrap();
-            assert_eq!(scene.notes(), &[] as &[String], "{id}");
-        }
-    }
-
-    #[test]
-    fn wrong_scenes_name_the_line_and_the_mend() {
-        let folder = ScratchFolder::made("drape-scene");
-        let path = folder.join("a.drape.toml");
-        for (text, expected) in [
-            ("textile = \"denim\"\nsize = 3\n", ":3: unknown field"),
-            ("textile = \"velvet\"\n", ":2: "),
-            (
-                "textile = \"denim\"\npins = \"left\"\n",
-                ":3: the pins are \"left\"; give",
-            ),
-            ("textile = \"denim\"\ngrid = \"fine\"\n", ":3: the grid is"),
-            (
-                "textile = \"denim\"\ngrid = [1, 9]\n",
-                "the grid is 1 vertices a side; give 2 to 400",
-            ),
-            (
-                "textile = \"denim\"\nstep_ms = nan\n",
-                ":3: this is no step",
-            ),
-            (
-                "textile = \"denim\"\nfriction = -1.0\n",
-                ":3: the friction is -1",
-            ),
-            (
-                "textile = \"denim\"\n[measured]\nemt_percent = 0\n",
-                ":3: the EMT is 0 %",
-            ),
-            (
-                "textile = \"denim\"\n[measured]\nb = 1\n",
-                ":4: unknown figure \"b\"",
-            ),
-            (
-                "[measured]\nlt = 0.7\n",
-                ":2: there is no figure weight_mg_per_cm2",
-            ),
-            (
-                "textile = \"denim\"\n[[finger]]\nside = \"left\"\nstart_mm = [0, 0, 0]\n\
-                 opening_mm = 9\n",
-                ":4: the side is \"left\"; give \"front\"",
-            ),
-            (
-                "textile = \"denim\"\n[[finger]]\nmapping = \"mirrored\"\nstart_mm = [0, 0, 0]\n\
-                 opening_mm = 9\n",
-                ":4: the mapping is \"mirrored\"",
-            ),
-        ] {
-            std::fs::write(&path, format!("name = \"a\"\n{text}")).unwrap();
-            let error = DrapeScene::read(&path).unwrap_err().to_string();
-            assert!(error.contains(expected) && error.contains("; "), "{error}");
-            assert!(!error.contains('\n'), "{error}");
-        }
-    }
-
-    #[test]
-    fn the_shipped_scene_is_read() {
-        let path =
-            Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/denim.drape.toml");
-        let scene = DrapeScene::read(&path).unwrap();
-        assert_eq!(
-            (scene.name(), scene.textile()),
-            ("Denim under two fingers", Some("denim"))
-        );
-        let (cloth, why) = scene.cloth(None, None).unwrap();
-        assert_eq!(cloth.fingers().len(), 2);
-        assert_eq!(cloth.stepping.integrator, Integrator::Bdf2, "{why}");
-        assert!(scene.fingers()[1].is_mirrored);
-    }
 }

@@ -37,6 +37,24 @@ impl Mesh {
         })
     }
 
+    /// All that joins `reach + 1` vertices along an axis, row by row: its index, its first vertex,
+    /// the width that it stands for, m: half at free edges.
+    pub(crate) fn lines(
+        &self,
+        axis: usize,
+        reach: usize,
+    ) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+        let rows = self.rows(axis, reach).enumerate();
+        rows.flat_map(|(row, (vertices, [at_ends, inside]))| {
+            let n = vertices.len();
+            vertices.enumerate().map(move |(nth, vertex)| {
+                let is_end = nth == 0 || nth + 1 == n;
+                let width = if is_end { at_ends } else { inside };
+                (row * n + nth, vertex, width)
+            })
+        })
+    }
+
     /// Every edge along an axis: of its item, its span and the width that it stands for, m, the
     /// force on its end.
     #[inline]

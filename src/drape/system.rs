@@ -1,5 +1,6 @@
 //! A step's function as a whole: inertia, the cloth, and the fingers on it.
 
+use super::coupling::PROXY_KG;
 use super::finger::Finger;
 use super::mesh::Vector;
 use super::newton::dot;
@@ -23,7 +24,7 @@ pub(crate) struct System {
 impl System {
     pub(crate) fn new(sheet: Sheet, fingers: Vec<Finger>) -> Self {
         let mut mass_kg = sheet.mesh.mass_kg.clone();
-        mass_kg.extend(fingers.iter().map(|_| Finger::MASS_KG));
+        mass_kg.extend(fingers.iter().map(|_| PROXY_KG));
         let lag = sheet.lag(mass_kg.len());
         Self {
             sheet,
@@ -136,7 +137,7 @@ impl System {
 
     /// What a finger's node meets by its own inertia and its coupling, N/m.
     pub(crate) fn own_stiffness(&self, finger: usize) -> f64 {
-        self.lag.mu * Finger::MASS_KG + self.fingers[finger].coupling.tangent
+        self.lag.mu * PROXY_KG + self.fingers[finger].coupling.tangent
     }
 
     pub(crate) fn precondition(&self, x: &[Vector], lines: &mut LinePreconditioner) {

@@ -314,7 +314,7 @@ mod tests {
 
     #[test]
     fn every_figure_comes_back_from_every_tester() {
-        for id in ["denim", "silk-crepe", "polyester-interlock"] {
+        for id in selvedge_textile::Library::shipped().unwrap().ids() {
             let figures = test_fabric(&DrapeScene::of_textile(id).unwrap()).unwrap();
             assert!(figures.len() >= 15, "{id}: {}", figures.len());
             for TestedFigure {

@@ -242,3 +242,20 @@ fn a_finger_does_not_pass_through_and_comes_back_on_either_side_past_an_edge() {
         );
     }
 }
+
+#[test]
+fn a_step_after_each_new_contact_looks_back_at_nothing() {
+    let mut cloth = plate(&[1.0, -1.0]);
+    let places = |first: f64, second: f64| [first, second].map(|z| Vector::new(0.05, 0.05, z));
+    let mut afresh = Vec::new();
+    for (to, n_steps) in [(places(-1e-3, -0.01), 200), (places(-1e-3, 1e-3), 200)] {
+        for _ in 0..n_steps {
+            lead(&mut cloth, &to, 1);
+            if cloth.n_past == 0 {
+                let touching = cloth.fingers().iter().map(|finger| finger.press_n() > 0.0);
+                afresh.push(touching.collect::<Vec<bool>>());
+            }
+        }
+    }
+    assert_eq!(afresh, [[true, false], [true, true]]);
+}

@@ -6,6 +6,7 @@ mod felt;
 mod fingers;
 mod local;
 mod motion;
+mod scene;
 mod speed;
 
 use crate::cloth::{Cloth, EXACT, Stepping};
