@@ -331,8 +331,9 @@ pub(crate) fn magnitudes_of(trace: &[f64]) -> Grid<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::example::{Split, all_taken};
+    use crate::example::all_taken;
     use crate::score::{LEVEL, LOG_SPECTRAL, MEASURES, score};
+    use crate::split::Split;
 
     #[test]
     fn each_baseline_predicts_and_what_knows_more_misses_less() {

@@ -260,8 +260,8 @@ fn warped(one: &[f64], other: &[f64], room: &mut Vec<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::example::Split;
     use crate::score::MEASURES;
+    use crate::split::Split;
     use selvedge_foundation::progress::Progress;
 
     fn fabrics() -> Vec<Fabric> {

@@ -301,7 +301,8 @@ fn bands(courses: &[Course], mean: &Course) -> Vec<[f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::example::{Split, all_taken};
+    use crate::example::all_taken;
+    use crate::split::Split;
 
     /// Mean log-spectral distance, dB, and level error, %, of every fourth held-back window of
     /// split A, as `assets/friction/provenance.toml` has them.

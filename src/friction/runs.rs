@@ -13,9 +13,10 @@ use selvedge_foundation::progress::Progress;
 
 use crate::FrictionError;
 use crate::baseline::Baseline;
-use crate::example::{Example, Split, all_taken};
+use crate::example::{Example, all_taken};
 use crate::network::{Learning, Lesson, Losses, Method};
 use crate::score::{LEVEL, LOG_SPECTRAL, MEASURES, Prediction, score};
+use crate::split::Split;
 
 /// What files of scores end in.
 const SCORES: &str = "scores.csv";

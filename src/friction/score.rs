@@ -173,7 +173,7 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::example::Split;
+    use crate::split::Split;
 
     #[test]
     fn a_perfect_prediction_has_no_error_and_a_constant_has_the_stated_ones() {

@@ -3,7 +3,8 @@
 
 use super::learn::Network as _;
 use super::*;
-use crate::example::{Example, Split, all_taken};
+use crate::example::{Example, all_taken};
+use crate::split::Split;
 use selvedge_foundation::progress::Progress;
 
 fn small(method: Method) -> Lesson {
