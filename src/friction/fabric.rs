@@ -10,7 +10,7 @@ use crate::cloth::PER_MM;
 use crate::example::{Example, SHORT_WINDOW, WINDOW};
 use crate::picture::strips;
 use crate::predict::Predictor;
-use crate::runs::Taken;
+use crate::runs::{Contestant, Taken};
 use crate::score::{LEVEL, LOG_SPECTRAL, Prediction, score};
 
 /// Of so many fabrics one is held back.
@@ -169,7 +169,7 @@ impl Fabric {
             Baseline::Ridge,
         ];
         let mut rows: Vec<_> = simple.map(Baseline::word).to_vec();
-        rows.push("shipped networks");
+        rows.push(Contestant::SHIPPED);
         let mut sums = vec![[0.0; 3]; rows.len()];
         for (out, n_out) in n_windows.into_iter().enumerate() {
             let share = out as f64 / n as f64;

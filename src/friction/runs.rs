@@ -15,6 +15,7 @@ use crate::FrictionError;
 use crate::baseline::Baseline;
 use crate::example::{Example, all_taken};
 use crate::network::{Learning, Lesson, Losses, Method};
+use crate::predict::Predictor;
 use crate::score::{LEVEL, LOG_SPECTRAL, MEASURES, Prediction, score};
 use crate::split::Split;
 
@@ -49,6 +50,11 @@ impl Scores {
         Ok(Self((0..table.n_rows()).map(row).collect()))
     }
 
+    #[cfg(test)]
+    pub(crate) fn of_one(scores: [f64; Self::N]) -> Self {
+        Self(vec![scores])
+    }
+
     /// Each measure's mean over the windows.
     pub fn mean(&self) -> [f64; Self::N] {
         let n = self.0.len().max(1) as f64;
@@ -81,6 +87,13 @@ pub enum Contestant {
     Network(Lesson),
     /// Something simple.
     Baseline(Baseline),
+    /// The networks that are shipped, together: they learnt on split A.
+    Shipped,
+}
+
+impl Contestant {
+    /// What [`Self::Shipped`] is called in tables.
+    pub const SHIPPED: &str = "shipped networks";
 }
 
 /// A contestant on a split, in a folder.
@@ -140,10 +153,8 @@ impl Run<'_> {
         let split = self.fabrics.unwrap_or_else(|| self.split.letter());
         let lesson = match self.contestant {
             Contestant::Network(lesson) => lesson,
-            Contestant::Baseline(baseline) => {
-                let baseline = baseline.word().replace(' ', "-").to_lowercase();
-                return format!("{baseline}-{split}");
-            }
+            Contestant::Baseline(baseline) => return named(baseline.word(), split),
+            Contestant::Shipped => return named(Contestant::SHIPPED, split),
         };
         let usual = Lesson::usual(lesson.method, lesson.seed);
         let mut parts = vec![lesson.method.word().to_owned(), split.to_owned()];
@@ -174,6 +185,11 @@ impl Run<'_> {
         } else {
             Ok(None)
         }
+    }
+
+    /// Whether it was broken off: what it cost so far is not known.
+    pub fn is_begun(&self) -> bool {
+        self.file("checkpoint").exists()
     }
 
     /// All runs of a folder that are finished, by name.
@@ -211,6 +227,12 @@ impl Run<'_> {
             Contestant::Baseline(baseline) => {
                 let fitted = baseline.fitted(&taken.learnt);
                 scored(taken, progress, &|example| fitted.predict(example))?
+            }
+            Contestant::Shipped => {
+                let shipped = Predictor::shipped()?;
+                scored(taken, progress, &|example| {
+                    Prediction::of_course(&shipped.course(&example.looks))
+                })?
             }
             Contestant::Network(lesson) => {
                 let learning = self.learnt(lesson, &taken.learnt, progress, said)?;
@@ -284,6 +306,11 @@ impl Run<'_> {
         }
         Ok(write_atomic(&path, &table.finish()?)?)
     }
+}
+
+/// The name of a run that learns nothing by rounds.
+fn named(word: &str, split: &str) -> String {
+    format!("{}-{split}", word.replace(' ', "-").to_lowercase())
 }
 
 fn scored(

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::data::DataArgs;
-use super::folder;
+use super::{folder, run_timed};
 use crate::CliError;
 use crate::terminal::{self, with_meter};
 use crate::usage::one_of;
@@ -87,7 +87,7 @@ pub(super) fn run(args: &TrainArgs) -> Result<(), CliError> {
             None => Taken::of(args.split, args.cloths as usize, n_threads()),
         };
         for run in wanted {
-            run.run(&taken, progress, &mut |said| terminal::line(said))?;
+            run_timed(&run, &taken, progress)?;
         }
         Ok(())
     })??;
