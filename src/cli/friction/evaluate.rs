@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::data::DataArgs;
+use super::table::{Row, SHOWN, table};
 use super::{folder, pages, run_timed};
 use crate::CliError;
 use crate::output::{TableOut, print};
@@ -34,13 +35,6 @@ pub(crate) struct EvaluateArgs {
     own: bool,
     #[command(flatten)]
     data: DataArgs,
-}
-
-/// A row of the table: who, how many runs, each measure's mean and deviation over seeds.
-struct Row {
-    name: &'static str,
-    n_runs: usize,
-    measures: [[f64; 2]; Scores::N],
 }
 
 pub(super) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
@@ -265,37 +259,4 @@ fn over_seeds(runs: &[Means]) -> [[f64; 2]; Scores::N] {
             .sum::<f64>();
         [mean, (squares / (n - 1.0).max(1.0)).sqrt()]
     })
-}
-
-/// What is read first: spectra, level, deviations, the paper's own measures.
-const SHOWN: [(usize, &str, usize); 8] = [
-    (Scores::LOG_SPECTRAL, "spectrum dB", 2),
-    (Scores::LEVEL, "level %", 2),
-    (8, "bands dB", 2),
-    (6, "deviations", 2),
-    (9, "period mm", 2),
-    (10, "correlation", 2),
-    (0, "spectrogram RMSE", 3),
-    (4, "signal RMSE %", 2),
-];
-
-fn table(rows: &[Row]) -> Vec<String> {
-    let line = |name: &str, runs: &str, cells: Vec<String>| {
-        let cells: Vec<_> = cells.iter().map(|cell| format!("{cell:>16}")).collect();
-        format!("{name:17} {runs:>4}  {}", cells.join("  "))
-    };
-    let head = SHOWN.map(|(_, name, _)| name.to_owned());
-    let row = |row: &Row| {
-        let cell = |(measure, _, digits): (usize, &str, usize)| {
-            let [mean, sd] = row.measures[measure].map(|number| fixed(number, digits));
-            if row.n_runs > 1 {
-                format!("{mean} ± {sd}")
-            } else {
-                mean
-            }
-        };
-        line(row.name, &row.n_runs.to_string(), SHOWN.map(cell).to_vec())
-    };
-    let head = line("method", "runs", head.to_vec());
-    std::iter::once(head).chain(rows.iter().map(row)).collect()
 }

@@ -4,6 +4,7 @@ mod data;
 mod evaluate;
 mod generate;
 mod pages;
+mod table;
 mod train;
 
 use std::path::Path;
