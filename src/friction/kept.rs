@@ -197,7 +197,7 @@ mod tests {
         let network = Contestant::Network(Lesson::usual(Method::Ours, 7));
         let ridge = Contestant::Baseline(Baseline::Ridge);
         let kept = |contestant, measure, cpu_s| {
-            let scores = Scores::of_one([measure; Scores::N]);
+            let scores = Scores::of(&[], vec![[measure; Scores::N]]);
             KeptRun::of(&run(contestant, &folder), &scores, cpu_s)
         };
         for one in [

@@ -29,6 +29,7 @@ mod picture;
 mod predict;
 mod runs;
 mod score;
+mod scores;
 mod signal;
 mod split;
 
@@ -38,5 +39,6 @@ pub use fabric::{Fabric, LeftOut};
 pub use kept::KeptRun;
 pub use network::{AdversarialLoss, Lesson, Method};
 pub use predict::{PredictedFriction, Predictor};
-pub use runs::{Contestant, Run, Scores, Taken};
+pub use runs::{Contestant, Run, Taken};
+pub use scores::Scores;
 pub use split::Split;

@@ -134,6 +134,8 @@ fn a_short_training_is_kept_told_and_put_into_a_table() {
     let told = lab.print(&evaluate[..evaluate.len() - 1]);
     assert!(told.contains("\nridge "), "{told}");
     assert!(lab.read("runs/table.csv").lines().count() > 9);
+    // A row a family.
+    assert_eq!(lab.read("runs/families.csv").lines().count(), 9);
     let kept = lab.read("runs/runs.csv");
     let row = kept.lines().nth(1).unwrap();
     assert!(row.starts_with(&format!("{name},ours,C,1,16,1,")), "{row}");

@@ -82,11 +82,32 @@ pub(super) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
         lines.push(String::new());
     }
     csv.finish()?;
+    families(args)?;
     lines.extend(others(args)?);
     if let Some(&split) = args.splits.first() {
         pages::draw(&args.out, split, n_threads())?;
     }
     print(&lines.join("\n"))
+}
+
+/// Writes the means of every family, a row a run of the folder and a family.
+fn families(args: &EvaluateArgs) -> Result<(), CliError> {
+    let path = args.out.join("families.csv");
+    let header: Vec<&str> = ["run", "family"]
+        .into_iter()
+        .chain(Scores::COLUMNS)
+        .collect();
+    let mut csv = TableOut::new(Some(&path), &header)?;
+    for (name, scores) in Run::all_finished(&args.out)? {
+        for (family, means) in scores.by_cloth() {
+            let cells = csv.rows().text(&name).text(family);
+            for mean in means {
+                cells.number(mean);
+            }
+            cells.end_row()?;
+        }
+    }
+    csv.finish()
 }
 
 /// A run of the table.

@@ -12,7 +12,7 @@ pub(super) struct Row {
 }
 
 /// What is read first: spectra, level, deviations, the paper's own measures.
-pub(super) const SHOWN: [(usize, &str, usize); 8] = [
+pub(super) const SHOWN: [(usize, &str, usize); 9] = [
     (Scores::LOG_SPECTRAL, "spectrum dB", 2),
     (Scores::LEVEL, "level %", 2),
     (8, "bands dB", 2),
@@ -21,6 +21,7 @@ pub(super) const SHOWN: [(usize, &str, usize); 8] = [
     (10, "correlation", 2),
     (0, "spectrogram RMSE", 3),
     (4, "signal RMSE %", 2),
+    (11, "signal MAE %", 2),
 ];
 
 /// What a measure is at best, and how far from it a value is.
