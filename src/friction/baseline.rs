@@ -3,13 +3,13 @@
 use nalgebra::{DMatrix, DVector};
 
 use selvedge_foundation::named;
-use selvedge_foundation::numerics::{Complex, Grid, StartPhases, to_index, to_single};
+use selvedge_foundation::numerics::{Grid, StartPhases, to_index, to_single};
 
 use crate::cloth::PER_MM;
 use crate::example::Example;
 use crate::picture::N_FIGURES;
 use crate::score::Prediction;
-use crate::signal::{Course, N_BINS, spectra};
+use crate::signal::{Course, N_BINS};
 
 /// Log-spaced bands that the ridge regression predicts.
 const N_RIDGE_BANDS: usize = 40;
@@ -324,11 +324,6 @@ impl Ridge {
             log_magnitudes: Grid::from_fn(N_BINS, n_frames, |bin, _| to_single(log(bin))),
         }
     }
-}
-
-/// The magnitudes that a trace has, for those that predict them whole.
-pub(crate) fn magnitudes_of(trace: &[f64]) -> Grid<f64> {
-    spectra().forward(trace).map(Complex::norm)
 }
 
 #[cfg(test)]

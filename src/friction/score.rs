@@ -2,9 +2,8 @@
 
 use selvedge_foundation::numerics::{Grid, GriffinLim, StartPhases};
 
-use crate::baseline::magnitudes_of;
 use crate::picture::{band_edges, mean};
-use crate::signal::{Course, HOP, spectra};
+use crate::signal::{Course, HOP, magnitudes_of, spectra};
 
 /// The first bin that neither the mean nor what is slow reaches.
 const FIRST_BIN: usize = 3;

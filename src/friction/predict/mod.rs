@@ -2,14 +2,15 @@
 
 use nalgebra::DMatrix;
 
-use selvedge_foundation::numerics::{Grid, Random, to_single};
+use selvedge_foundation::numerics::{Grid, Random, Stft, extent, to_single};
+use selvedge_foundation::quantity::fixed;
 
 use crate::FrictionError;
 use crate::cloth::PER_MM;
 use crate::network::{OurNetwork, Size, Weights};
 use crate::picture::{Looks, N_BANDS, band_edges, strips};
 use crate::score::{MEASURES, Prediction, score};
-use crate::signal::{Course, FRAME, HOP, MAGNITUDE_SCALE};
+use crate::signal::{Course, FRAME, HOP, MAGNITUDE_SCALE, spectra};
 
 /// Weights learnt from other seeds, and what was found of them on cloths that were held back.
 const SHIPPED: [&[u8]; 4] = [
@@ -72,6 +73,34 @@ impl PredictedFriction {
     /// What is left of a trace without its level and what is slow: phases are found of that alone.
     pub fn rest_of(felt: &[f64]) -> Vec<f64> {
         Course::rest_of(felt)
+    }
+
+    /// The spectra that a trace is told by.
+    pub fn spectra() -> Stft {
+        spectra()
+    }
+
+    /// Log magnitudes as a picture: the lowest `n_bins` bins upward, a column a frame, from 0 at the
+    /// lower of two ends to 1 at the upper.
+    pub fn shades(log_magnitudes: &Grid<f32>, n_bins: usize, [low, high]: [f64; 2]) -> Grid<f64> {
+        let n_bins = n_bins.min(log_magnitudes.width());
+        Grid::from_fn(log_magnitudes.height(), n_bins, |frame, row| {
+            let log = log_magnitudes.row(frame)[n_bins - 1 - row];
+            (f64::from(log) - low) / (high - low).max(1e-9)
+        })
+    }
+
+    /// How sure it is, for people, behind "mean friction".
+    pub fn certainty(&self) -> String {
+        let [least, most] = extent(self.bands.iter().map(|[.., db]| *db));
+        format!(
+            "{} ± {} in 95 % of cloths like those learnt, procedural ones; spectrum within {} to \
+             {} dB by band. A picture tells little of an unseen material’s friction.",
+            fixed(self.level(), 3),
+            fixed(self.level_within, 3),
+            fixed(least, 1),
+            fixed(most, 1)
+        )
     }
 
     /// How far it is from the trace that was felt there, by [`Scores::COLUMNS`].

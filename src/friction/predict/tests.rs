@@ -121,6 +121,17 @@ fn a_picture_gives_friction_with_how_far_it_may_be_off_and_a_small_one_is_refuse
 }
 
 #[test]
+fn shades_are_a_picture_with_the_lowest_bin_at_the_bottom() {
+    let log = Grid::from_fn(257, 3, |bin, frame| to_single((bin + 1000 * frame) as f64));
+    let shades = PredictedFriction::shades(&log, 128, [0.0, 2000.0]);
+    assert_eq!([shades.width(), shades.height()], [3, 128]);
+    assert_eq!(shades.row(127), [0.0, 0.5, 1.0]);
+    assert_eq!(shades.row(0)[0], 127.0 / 2000.0);
+    let flat = PredictedFriction::shades(&Grid::filled(257, 1, 2.0), 999, [2.0, 2.0]);
+    assert!(flat.height() == 257 && flat.values().iter().all(|shade| *shade == 0.0));
+}
+
+#[test]
 fn black_white_plain_and_finer_pictures_are_pictures() {
     let predictor = Predictor::shipped().unwrap();
     for shade in [0.0, 0.5, 1.0] {
