@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use selvedge_foundation::numerics::{Grid, in_pieces, to_byte};
 
-use crate::cloth::{Area, Camera, FINGER_ROWS, Family, Recipe, Rubbed};
+use crate::cloth::{Area, Camera, Family, Recipe, Rubbed};
 use crate::picture::Looks;
 use crate::signal::Course;
 
@@ -252,6 +252,7 @@ fn mirrored(place: isize, n: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cloth::FINGER_ROWS;
     use crate::split::Split;
 
     #[test]
