@@ -3,13 +3,13 @@
 use nalgebra::{DMatrix, DVector};
 
 use selvedge_foundation::named;
-use selvedge_foundation::numerics::{Complex, Grid, StartPhases, to_index, to_single};
+use selvedge_foundation::numerics::{Grid, StartPhases, to_index, to_single};
 
 use crate::cloth::PER_MM;
 use crate::example::Example;
 use crate::picture::N_FIGURES;
 use crate::score::Prediction;
-use crate::signal::{Course, N_BINS, spectra};
+use crate::signal::{Course, N_BINS};
 
 /// Log-spaced bands that the ridge regression predicts.
 const N_RIDGE_BANDS: usize = 40;
@@ -21,28 +21,26 @@ named! {
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
     pub enum Baseline {
         /// The mean level of what was learnt, flat.
-        Mean = "training mean", "a constant",
+        Mean = "training mean",
         /// Mean spectrum and level of the family, which is told.
-        Class = "class spectrum", "is told the family",
+        Class = "class spectrum",
         /// The true mean, flat: a warning, since the paper's signal score prefers it.
-        OracleMean = "oracle mean", "is told the answer's mean; a warning",
+        OracleMean = "oracle mean",
         /// The cloth that looks most alike.
-        Nearest = "1-NN", "the one that looks most alike",
+        Nearest = "1-NN",
         /// The five cloths that look most alike.
-        FiveNearest = "5-NN", "the five that look most alike",
+        FiveNearest = "5-NN",
         /// Linear in the picture's spectrum.
-        Ridge = "ridge", "linear in the picture's spectra",
+        Ridge = "ridge",
         /// Grey taken as height, felt by its slope.
-        HeightMap = "height map", "grey is height, felt by its slope",
+        HeightMap = "height map",
         /// The true magnitudes with phases by chance: what no method without phases can beat.
-        TrueSpectrum = "true spectrum", "is told the answer's spectrum, not its phases",
+        TrueSpectrum = "true spectrum",
         /// What hangs on the surface, and the mean of all strokes.
-        Best = "Bayes floor", "knows the surface; only chance is left",
+        Best = "Bayes floor",
     }
     /// Its name in tables.
     pub fn word;
-    /// What it knows.
-    pub fn describe;
 }
 
 /// A baseline that has seen what there is to learn.
@@ -66,6 +64,11 @@ impl std::fmt::Debug for Fitted<'_> {
 }
 
 impl Baseline {
+    /// Whether it knows something of the trace that it is scored against.
+    pub fn is_told_answer(self) -> bool {
+        matches!(self, Self::OracleMean | Self::TrueSpectrum | Self::Best)
+    }
+
     /// Learns from examples, of which there is at least one.
     pub(crate) fn fitted(self, learnt: &[Example]) -> Fitted<'_> {
         let scales = scales(learnt);
@@ -323,16 +326,12 @@ impl Ridge {
     }
 }
 
-/// The magnitudes that a trace has, for those that predict them whole.
-pub(crate) fn magnitudes_of(trace: &[f64]) -> Grid<f64> {
-    spectra().forward(trace).map(Complex::norm)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::example::{Split, all_taken};
+    use crate::example::all_taken;
     use crate::score::{LEVEL, LOG_SPECTRAL, MEASURES, score};
+    use crate::split::Split;
 
     #[test]
     fn each_baseline_predicts_and_what_knows_more_misses_less() {

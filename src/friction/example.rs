@@ -1,46 +1,23 @@
-//! Pictures with their traces, and which of them are learnt from and which are held back.
+//! Pictures with their traces, taken where a window of a cloth lies, or of a fabric that was given.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
-use selvedge_foundation::named;
-use selvedge_foundation::numerics::{Grid, Random, in_pieces, to_byte};
+use selvedge_foundation::numerics::{Grid, in_pieces, to_byte};
 
-use crate::cloth::{Area, Camera, FINGER_ROWS, Family, Recipe};
+use crate::cloth::{Area, Camera, Family, Recipe, Rubbed};
 use crate::picture::Looks;
-use crate::signal::{Course, HOP};
+use crate::signal::Course;
 
 /// Samples of a window: 100 mm.
 pub(crate) const WINDOW: usize = 1280;
-/// Samples of a window of split C: 40 mm.
+/// Samples of a short window: 40 mm.
 pub(crate) const SHORT_WINDOW: usize = 512;
 /// Samples of a whole trace: 155 mm.
-const TRACE: usize = 1984;
+pub(crate) const TRACE: usize = 1984;
 /// Pixels of a side of the picture that networks of whole pictures see.
 pub(crate) const SQUARE: usize = 512;
-/// Seed of the first cloth that is held back.
-const HELD_BACK: u64 = 10_000;
 /// Strokes that the best possible prediction is the mean of.
 const N_STROKES: u64 = 16;
-
-named! {
-    /// What is held back.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-    pub enum Split {
-        /// Cloths of known families that were never seen: the main result.
-        Cloths = "A", "unseen cloths of known families",
-        /// A family that was never seen: twills.
-        Family = "B", "an unseen family (twill)",
-        /// Known cloths at a place 50 mm from any that was seen.
-        Places = "C", "unseen places of known cloths, 40 mm each",
-        /// The protocol of the paper, where a test window shares nearly all its pixels with one
-        /// that was learnt.
-        Leaky = "D", "leaky, for comparison only: windows 2 pixels apart",
-    }
-    /// Its letter.
-    pub fn letter;
-    /// What it holds back.
-    pub fn describe;
-}
 
 /// Where a picture and its trace are taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,6 +30,16 @@ pub(crate) struct Window {
     pub area: Area,
     /// The seed of camera and stroke.
     pub take: u64,
+    /// Whether it is cut from one [`Sheet`] of its cloth that others are cut from, too.
+    pub is_cut: bool,
+}
+
+/// A whole cloth, photographed once and stroked once.
+#[derive(Debug)]
+struct Sheet {
+    /// [`SQUARE`] rows, brightness 0 to 1.
+    photo: Grid<f32>,
+    rubbed: Rubbed,
 }
 
 /// A picture, what it looks like, and the friction along it.
@@ -64,6 +51,8 @@ pub(crate) struct Example {
     pub column: usize,
     /// Where a procedural one was taken.
     pub window: Option<Window>,
+    /// What it was cut from.
+    sheet: Option<Arc<Sheet>>,
     /// See [`Self::square`]: made when it is asked for first, of 256 shades.
     square: OnceLock<Grid<u8>>,
     /// The strip under the finger, brightness 0 to 1.
@@ -81,14 +70,37 @@ pub(crate) struct Example {
 impl Window {
     /// The picture and the trace.
     pub(crate) fn taken(self) -> Example {
+        if self.is_cut {
+            return self.cut(&Arc::new(Sheet::of(self)));
+        }
         let recipe = Recipe::of(self.family, self.seed);
         let relief_um = recipe.relief_um(self.area);
         let rubbed = recipe.rubbed(&relief_um, self.area, self.take);
         let strip = recipe.photo(&relief_um, self.area, &Camera::of(self.take));
+        self.with(strip, rubbed)
+    }
+
+    /// Its part of a sheet of its cloth.
+    fn cut(self, sheet: &Arc<Sheet>) -> Example {
+        let [[left, n], [top, height]] = [self.area.columns, self.area.rows];
+        let part = |all: &[f64]| all[left..left + n].to_vec();
+        let strip = Grid::from_fn(n, height, |x, y| sheet.photo.row(top + y)[left + x]);
+        let rubbed = Rubbed {
+            friction: part(&sheet.rubbed.friction),
+            of_surface: part(&sheet.rubbed.of_surface),
+        };
+        Example {
+            sheet: Some(Arc::clone(sheet)),
+            ..self.with(strip, rubbed)
+        }
+    }
+
+    fn with(self, strip: Grid<f32>, rubbed: Rubbed) -> Example {
         Example {
             cloth: self.family.word().to_owned(),
             column: self.area.columns[0],
             window: Some(self),
+            sheet: None,
             square: OnceLock::new(),
             looks: Looks::of(&strip),
             strip,
@@ -99,19 +111,60 @@ impl Window {
     }
 }
 
+impl Sheet {
+    /// The sheet that a window is cut from.
+    fn of(window: Window) -> Self {
+        let recipe = Recipe::of(window.family, window.seed);
+        let columns = [0, TRACE];
+        let photographed = Area {
+            columns,
+            rows: [0, SQUARE],
+        };
+        let stroked = Area {
+            columns,
+            rows: window.area.rows,
+        };
+        let camera = Camera::of(window.take);
+        Self {
+            photo: recipe.photo(&recipe.relief_um(photographed), photographed, &camera),
+            rubbed: recipe.rubbed(&recipe.relief_um(stroked), stroked, window.take),
+        }
+    }
+}
+
 /// Windows taken, on several threads; the result does not depend on how many.
 pub(crate) fn all_taken(windows: &[Window], n_threads: usize) -> Vec<Example> {
-    let mut taken: Vec<Option<Example>> = vec![None; windows.len()];
+    let cloth = |window: &Window| (window.family, window.seed);
+    let mut cut: Vec<Window> = windows.iter().copied().filter(|w| w.is_cut).collect();
+    cut.sort_by_key(cloth);
+    cut.dedup_by_key(|window| cloth(window));
+    let sheets = on_threads(&cut, n_threads, |window| Arc::new(Sheet::of(*window)));
+    on_threads(windows, n_threads, |window| {
+        let place = cut.binary_search_by_key(&cloth(window), cloth);
+        match place.ok().filter(|_| window.is_cut) {
+            Some(place) => window.cut(&sheets[place]),
+            None => window.taken(),
+        }
+    })
+}
+
+/// What is made of each item, on several threads.
+fn on_threads<T: Sync, U: Clone + Send>(
+    items: &[T],
+    n_threads: usize,
+    make: impl Fn(&T) -> U + Sync,
+) -> Vec<U> {
+    let mut made: Vec<Option<U>> = vec![None; items.len()];
     in_pieces(
-        &mut taken,
+        &mut made,
         1,
         n_threads,
         || (),
         |(), number, piece| {
-            piece[0] = Some(windows[number].taken());
+            piece[0] = Some(make(&items[number]));
         },
     );
-    taken.into_iter().flatten().collect()
+    made.into_iter().flatten().collect()
 }
 
 impl Example {
@@ -121,6 +174,7 @@ impl Example {
             cloth: name.to_owned(),
             column,
             window: None,
+            sheet: None,
             square: OnceLock::new(),
             looks: Looks::of(&strip),
             strip,
@@ -136,6 +190,12 @@ impl Example {
         let square = self.square.get_or_init(|| {
             let [n, height] = [self.strip.width(), self.strip.height()];
             let left = n.saturating_sub(SQUARE) / 2;
+            if let Some(sheet) = &self.sheet {
+                let left = self.column + left;
+                return Grid::from_fn(SQUARE, SQUARE, |x, y| {
+                    to_byte(f64::from(255.0 * sheet.photo.row(y)[left + x]))
+                });
+            }
             let Some(window) = self.window else {
                 let below = SQUARE.saturating_sub(height) / 2;
                 let row = |row: usize| mirrored(row.cast_signed() - below.cast_signed(), height);
@@ -189,124 +249,11 @@ fn mirrored(place: isize, n: usize) -> usize {
     turn.min(2 * n - 1 - turn).cast_unsigned()
 }
 
-impl Split {
-    /// Cloths of each family that are learnt from.
-    pub const N_CLOTHS: usize = 150;
-
-    /// Windows to learn from, and those that are held back. `scale` cloths of each family are
-    /// learnt from ([`Self::N_CLOTHS`] is what results are told of), a quarter of that held back,
-    /// at most 20; those do not depend on how many are learnt from.
-    pub(crate) fn windows(self, scale: usize) -> [Vec<Window>; 2] {
-        let n_held_back = (scale / 4).clamp(1, 20);
-        match self {
-            Self::Cloths => [
-                apart(&Family::ALL, 0, scale, 2),
-                apart(&Family::ALL, HELD_BACK, n_held_back, 1),
-            ],
-            Self::Family => {
-                let known: Vec<_> = Family::ALL
-                    .into_iter()
-                    .filter(|&family| family != Family::Twill)
-                    .collect();
-                [
-                    apart(&known, 0, scale, 2),
-                    apart(&[Family::Twill], HELD_BACK, 4 * n_held_back, 1),
-                ]
-            }
-            Self::Places => [&[0, HOP] as &[usize], &[WINDOW]].map(|starts| {
-                cloths(&Family::ALL, 0, scale)
-                    .flat_map(|cloth| {
-                        starts
-                            .iter()
-                            .map(move |&from| at(cloth, [from, SHORT_WINDOW]))
-                    })
-                    .collect()
-            }),
-            Self::Leaky => leaky(scale),
-        }
-    }
-}
-
-/// Cloths of each family from a seed on.
-fn cloths(families: &[Family], from: u64, n: usize) -> impl Iterator<Item = (Family, u64)> {
-    families
-        .iter()
-        .flat_map(move |&family| (from..from + n as u64).map(move |seed| (family, seed)))
-}
-
-/// One window of a cloth, taken in a way of its own.
-fn at((family, seed): (Family, u64), columns: [usize; 2]) -> Window {
-    let take = Random::new(seed)
-        .branch(&format!("{} {}", family.word(), columns[0]))
-        .seed();
-    Window {
-        family,
-        seed,
-        area: Area {
-            columns,
-            rows: [(SQUARE - FINGER_ROWS) / 2, FINGER_ROWS],
-        },
-        take,
-    }
-}
-
-/// So many windows of each cloth, far from each other.
-fn apart(families: &[Family], from: u64, n_cloths: usize, n_windows: usize) -> Vec<Window> {
-    cloths(families, from, n_cloths)
-        .flat_map(|cloth| (0..n_windows).map(move |n| at(cloth, [n * 2 * WINDOW, WINDOW])))
-        .collect()
-}
-
-/// Windows two pixels apart, eight of nine learnt from.
-fn leaky(scale: usize) -> [Vec<Window>; 2] {
-    let starts = (0..=TRACE - WINDOW).step_by(2).take(2 * scale);
-    let mut windows: Vec<Window> = cloths(&Family::ALL, 0, 1)
-        .flat_map(|cloth| starts.clone().map(move |from| at(cloth, [from, WINDOW])))
-        .collect();
-    Random::new(669).shuffle(&mut windows);
-    let held_back = windows.split_off(windows.len() - windows.len() / 9);
-    [windows, held_back]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Whether both see the same place of the same cloth.
-    fn overlap(one: &Window, other: &Window) -> bool {
-        let [a, b] = [one, other].map(|window| window.area.columns);
-        let is_same = (one.family, one.seed) == (other.family, other.seed);
-        is_same && a[0] < b[0] + b[1] && b[0] < a[0] + a[1]
-    }
-
-    #[test]
-    fn nothing_that_is_held_back_was_seen() {
-        for split in [Split::Cloths, Split::Family, Split::Places] {
-            let [learnt, held_back] = split.windows(8);
-            assert!(!held_back.is_empty());
-            for test in &held_back {
-                let leak = learnt.iter().find(|window| overlap(window, test));
-                assert_eq!(leak, None, "{split:?}: {test:?}");
-                if split == Split::Places {
-                    let same = |w: &&Window| (w.family, w.seed) == (test.family, test.seed);
-                    let end = learnt
-                        .iter()
-                        .filter(same)
-                        .map(|w| w.area.columns[0] + SHORT_WINDOW);
-                    let gap = test.area.columns[0] - end.max().unwrap();
-                    assert!(gap >= 640, "{gap} samples");
-                }
-                if split == Split::Family {
-                    assert!(learnt.iter().all(|window| window.family != test.family));
-                }
-            }
-        }
-        let [learnt, held_back] = Split::Leaky.windows(8);
-        let leaks = held_back
-            .iter()
-            .filter(|test| learnt.iter().any(|w| overlap(w, test)));
-        assert_eq!(leaks.count(), held_back.len(), "the leaky split leaks");
-    }
+    use crate::cloth::FINGER_ROWS;
+    use crate::split::Split;
 
     #[test]
     fn the_same_windows_are_taken_whatever_the_number_of_threads() {
@@ -314,6 +261,39 @@ mod tests {
         let [one, two] = [1, 2].map(|n| all_taken(windows, n));
         for (one, two) in one.iter().zip(&two) {
             assert_eq!((&one.trace, &one.looks), (&two.trace, &two.looks));
+        }
+    }
+
+    #[test]
+    fn windows_of_the_leaky_split_share_all_pixels_and_samples_where_they_overlap() {
+        let [learnt, held_back] = Split::Leaky.windows(3);
+        for test in held_back {
+            let of_cloth = |w: &&Window| (w.family, w.seed) == (test.family, test.seed);
+            let distance = |w: &&Window| w.area.columns[0].abs_diff(test.area.columns[0]);
+            let near = learnt.iter().filter(of_cloth).min_by_key(distance).unwrap();
+            let pair = all_taken(&[test, *near], 2);
+            let [a, b] = if pair[0].column < pair[1].column {
+                [&pair[0], &pair[1]]
+            } else {
+                [&pair[1], &pair[0]]
+            };
+            let shift = b.column - a.column;
+            assert!(shift > 0 && shift <= 4, "{shift}");
+            assert_eq!(a.trace[shift..], b.trace[..WINDOW - shift]);
+            assert_eq!(a.of_surface[shift..], b.of_surface[..WINDOW - shift]);
+            let shared = |one: &Grid<f32>, from: usize, width: usize| {
+                one.part([from, 0, width, one.height()]).unwrap()
+            };
+            for (a, b) in [(&a.strip, &b.strip), (&a.square(), &b.square())] {
+                let n = a.width() - shift;
+                assert!(shared(a, shift, n) == shared(b, 0, n), "{test:?}");
+            }
+            // The strip is the middle of the same picture.
+            let (square, left) = (a.square(), (WINDOW - SQUARE) / 2);
+            let middle = square.part([0, test.area.rows[0], SQUARE, FINGER_ROWS]);
+            let strip = a.strip.part([left, 0, SQUARE, FINGER_ROWS]).unwrap();
+            let bytes = |grid: Grid<f32>| grid.map(|v| to_byte(f64::from(255.0 * v)));
+            assert!(bytes(middle.unwrap()) == bytes(strip));
         }
     }
 

@@ -10,7 +10,7 @@ use crate::cloth::PER_MM;
 use crate::example::{Example, SHORT_WINDOW, WINDOW};
 use crate::picture::strips;
 use crate::predict::Predictor;
-use crate::runs::Taken;
+use crate::runs::{Contestant, Taken};
 use crate::score::{LEVEL, LOG_SPECTRAL, Prediction, score};
 
 /// Of so many fabrics one is held back.
@@ -144,6 +144,14 @@ impl Fabric {
         Ok(fabrics.iter().zip(&all).map(of_fabric).collect())
     }
 
+    /// Refuses fewer than something can be learnt from while one is held back.
+    fn are_enough(fabrics: &[Self]) -> Result<(), FrictionError> {
+        match fabrics.len() {
+            n @ 0..3 => Err(FrictionError::Few { n }),
+            _ => Ok(()),
+        }
+    }
+
     /// What simple methods make of each fabric that have learnt from all others, and the networks
     /// that are shipped.
     ///
@@ -153,10 +161,8 @@ impl Fabric {
         fabrics: &[Self],
         progress: &mut Progress<'_>,
     ) -> Result<Vec<LeftOut>, FrictionError> {
+        Self::are_enough(fabrics)?;
         let n = fabrics.len();
-        if n < 3 {
-            return Err(FrictionError::Few { n });
-        }
         let examples = Self::examples(fabrics)?;
         let n_windows: Vec<usize> = examples.iter().map(Vec::len).collect();
         let mut examples: Vec<Example> = examples.into_iter().flatten().collect();
@@ -169,7 +175,7 @@ impl Fabric {
             Baseline::Ridge,
         ];
         let mut rows: Vec<_> = simple.map(Baseline::word).to_vec();
-        rows.push("shipped networks");
+        rows.push(Contestant::SHIPPED);
         let mut sums = vec![[0.0; 3]; rows.len()];
         for (out, n_out) in n_windows.into_iter().enumerate() {
             let share = out as f64 / n as f64;
@@ -209,12 +215,10 @@ impl Taken {
     /// Fabrics to learn from, and every fifth (the last of fewer) to hold back whole.
     ///
     /// # Errors
-    /// Fewer than two fabrics, or one without a strip or friction.
+    /// Fewer than three fabrics, or one without a strip or friction.
     pub fn of_fabrics(fabrics: &[Fabric]) -> Result<Self, FrictionError> {
+        Fabric::are_enough(fabrics)?;
         let n = fabrics.len();
-        if n < 2 {
-            return Err(FrictionError::Few { n });
-        }
         let mut taken = Self {
             learnt: Vec::new(),
             held_back: Vec::new(),
@@ -260,8 +264,8 @@ fn warped(one: &[f64], other: &[f64], room: &mut Vec<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::example::Split;
     use crate::score::MEASURES;
+    use crate::split::Split;
     use selvedge_foundation::progress::Progress;
 
     fn fabrics() -> Vec<Fabric> {
@@ -310,7 +314,24 @@ mod tests {
         fabrics[2].trace = vec![0.3; 100];
         let refused = Taken::of_fabrics(&fabrics).unwrap_err().to_string();
         assert!(refused.contains("less than 40 mm"), "{refused}");
-        assert!(Taken::of_fabrics(&fabrics[..1]).is_err());
+        for trace in [
+            vec![],
+            vec![-0.1; 1280],
+            vec![-0.3],
+            vec![f64::INFINITY; 1280],
+        ] {
+            fabrics[2].trace = trace;
+            let refused = Taken::of_fabrics(&fabrics).unwrap_err().to_string();
+            assert!(
+                refused.contains("fabric 2: its friction is none"),
+                "{refused}"
+            );
+        }
+        for n in 0..3 {
+            let refused = Taken::of_fabrics(&fabrics[..n]).unwrap_err().to_string();
+            let said = format!("{n} fabrics are too few: give at least 3");
+            assert!(refused.starts_with(&said), "{refused}");
+        }
     }
 
     #[test]

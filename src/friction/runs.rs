@@ -7,59 +7,21 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use selvedge_foundation::files::{FileError, Table, TableWriter, read, read_text, write_atomic};
+use selvedge_foundation::files::{FileError, read, write_atomic};
 use selvedge_foundation::numerics::Grid;
 use selvedge_foundation::progress::Progress;
 
 use crate::FrictionError;
 use crate::baseline::Baseline;
-use crate::example::{Example, Split, all_taken};
+use crate::example::{Example, all_taken};
 use crate::network::{Learning, Lesson, Losses, Method};
-use crate::score::{LEVEL, LOG_SPECTRAL, MEASURES, Prediction, score};
+use crate::predict::Predictor;
+use crate::score::{Prediction, score};
+use crate::scores::Scores;
+use crate::split::Split;
 
 /// What files of scores end in.
 const SCORES: &str = "scores.csv";
-
-/// Scores of held-back windows, each by [`Self::COLUMNS`].
-#[derive(Debug, Clone, PartialEq)]
-pub struct Scores(Vec<[f64; Self::N]>);
-
-impl Scores {
-    /// Measures of a window.
-    pub const N: usize = MEASURES.len();
-    /// Their names, with units, as columns of files.
-    pub const COLUMNS: [&str; Self::N] = MEASURES;
-    /// The place of the level's error, %.
-    pub const LEVEL: usize = LEVEL;
-    /// The place of the distance of spectra, dB.
-    pub const LOG_SPECTRAL: usize = LOG_SPECTRAL;
-
-    fn header() -> Vec<&'static str> {
-        let place = ["family", "seed", "column"];
-        place.into_iter().chain(MEASURES).collect()
-    }
-
-    fn read(path: &Path) -> Result<Self, FrictionError> {
-        let table = Table::read(&read_text(path)?, path, &Self::header(), &[])?;
-        let columns = MEASURES.map(|measure| table.required_numbers(measure));
-        let columns: Result<Vec<Vec<f64>>, FileError> = columns.into_iter().collect();
-        let columns = columns?;
-        let row = |row: usize| std::array::from_fn(|measure| columns[measure][row]);
-        Ok(Self((0..table.n_rows()).map(row).collect()))
-    }
-
-    /// Each measure's mean over the windows.
-    pub fn mean(&self) -> [f64; Self::N] {
-        let n = self.0.len().max(1) as f64;
-        let mut mean = [0.0; Self::N];
-        for scores in &self.0 {
-            for (sum, score) in mean.iter_mut().zip(scores) {
-                *sum += score / n;
-            }
-        }
-        mean
-    }
-}
 
 impl Method {
     /// Which seeds it is run with on a split, for the table.
@@ -80,6 +42,13 @@ pub enum Contestant {
     Network(Lesson),
     /// Something simple.
     Baseline(Baseline),
+    /// The networks that are shipped, together: they learnt on split A.
+    Shipped,
+}
+
+impl Contestant {
+    /// What [`Self::Shipped`] is called in tables.
+    pub const SHIPPED: &str = "shipped networks";
 }
 
 /// A contestant on a split, in a folder.
@@ -139,10 +108,8 @@ impl Run<'_> {
         let split = self.fabrics.unwrap_or_else(|| self.split.letter());
         let lesson = match self.contestant {
             Contestant::Network(lesson) => lesson,
-            Contestant::Baseline(baseline) => {
-                let baseline = baseline.word().replace(' ', "-").to_lowercase();
-                return format!("{baseline}-{split}");
-            }
+            Contestant::Baseline(baseline) => return named(baseline.word(), split),
+            Contestant::Shipped => return named(Contestant::SHIPPED, split),
         };
         let usual = Lesson::usual(lesson.method, lesson.seed);
         let mut parts = vec![lesson.method.word().to_owned(), split.to_owned()];
@@ -173,6 +140,11 @@ impl Run<'_> {
         } else {
             Ok(None)
         }
+    }
+
+    /// Whether it was broken off: what it cost so far is not known.
+    pub fn is_begun(&self) -> bool {
+        self.file("checkpoint").exists()
     }
 
     /// All runs of a folder that are finished, by name.
@@ -211,6 +183,12 @@ impl Run<'_> {
                 let fitted = baseline.fitted(&taken.learnt);
                 scored(taken, progress, &|example| fitted.predict(example))?
             }
+            Contestant::Shipped => {
+                let shipped = Predictor::shipped()?;
+                scored(taken, progress, &|example| {
+                    Prediction::of_course(&shipped.course(&example.looks))
+                })?
+            }
             Contestant::Network(lesson) => {
                 let learning = self.learnt(lesson, &taken.learnt, progress, said)?;
                 let network = learning.network();
@@ -221,7 +199,7 @@ impl Run<'_> {
                 scores
             }
         };
-        self.keep(taken, &scores)?;
+        scores.write(&taken.held_back, &self.file(SCORES))?;
         // Whether it can be removed does not matter: a finished run is read.
         drop(fs::remove_file(self.file("checkpoint")));
         Ok(scores)
@@ -267,22 +245,11 @@ impl Run<'_> {
         let text = format!("round,spectra,level,critic\n{}\n", rows.join("\n"));
         Ok(write_atomic(&path, text.as_bytes())?)
     }
+}
 
-    fn keep(&self, taken: &Taken, scores: &Scores) -> Result<(), FrictionError> {
-        let path = self.file(SCORES);
-        let mut table = TableWriter::new(Vec::new(), &path, &Scores::header())?;
-        for (example, scores) in taken.held_back.iter().zip(&scores.0) {
-            table
-                .text(&example.cloth)
-                .number(example.window.map_or(0, |window| window.seed))
-                .number(example.column);
-            for score in scores {
-                table.number(score);
-            }
-            table.end_row()?;
-        }
-        Ok(write_atomic(&path, &table.finish()?)?)
-    }
+/// The name of a run that learns nothing by rounds.
+fn named(word: &str, split: &str) -> String {
+    format!("{}-{split}", word.replace(' ', "-").to_lowercase())
 }
 
 fn scored(
@@ -297,13 +264,14 @@ fn scored(
         step.map_err(|_stopped| FrictionError::Cancelled)?;
         scores.push(score(&predict(example), &example.trace));
     }
-    Ok(Scores(scores))
+    Ok(Scores::of(&taken.held_back, scores))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::network::Size;
+    use crate::score::LEVEL;
     use selvedge_foundation::progress::{CancelFlag, Progress};
 
     #[test]
@@ -339,6 +307,17 @@ mod tests {
             }
             let scores =
                 Progress::unheard(|progress| run.run(&taken, progress, &mut |_| {})).unwrap();
+            let families = scores.by_cloth();
+            assert_eq!(families.len(), 8);
+            let sum: f64 = families.iter().map(|(_, mean)| mean[LEVEL]).sum();
+            // As many windows of each.
+            assert!((sum / 8.0 - scores.mean()[LEVEL]).abs() < 1e-12);
+            let [of_name, of_windows] = [families[2].1[LEVEL], {
+                let windows = taken.held_back.iter().zip(scores.windows());
+                let of_family = windows.filter(|(of, _)| of.cloth == families[2].0);
+                of_family.map(|(_, scores)| scores[LEVEL]).sum::<f64>() / 2.0
+            }];
+            assert!((of_name - of_windows).abs() < 1e-12);
             assert_eq!(run.finished().unwrap(), Some(scores));
             assert!(!run.file("checkpoint").exists());
             ["scores.csv", "rounds.csv", "weights"]

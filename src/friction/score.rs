@@ -2,9 +2,8 @@
 
 use selvedge_foundation::numerics::{Grid, GriffinLim, StartPhases};
 
-use crate::baseline::magnitudes_of;
 use crate::picture::{band_edges, mean};
-use crate::signal::{Course, HOP, spectra};
+use crate::signal::{Course, HOP, magnitudes_of, spectra};
 
 /// The first bin that neither the mean nor what is slow reaches.
 const FIRST_BIN: usize = 3;
@@ -49,7 +48,7 @@ impl Prediction {
 
 /// What is measured, as columns of files; all but the ratio of deviations and the correlation are
 /// best at 0.
-pub(crate) const MEASURES: [&str; 11] = [
+pub(crate) const MEASURES: [&str; 12] = [
     "spectrogram_rmse",
     "spectrogram_mae",
     "signal_rmse",
@@ -61,6 +60,7 @@ pub(crate) const MEASURES: [&str; 11] = [
     "band_energy_error_db",
     "dominant_period_error_mm",
     "correlation",
+    "signal_mae_percent",
 ];
 
 /// The place of a measure in [`MEASURES`].
@@ -81,11 +81,12 @@ pub(crate) fn score(predicted: &Prediction, felt: &[f64]) -> [f64; MEASURES.len(
     let samples = || predicted.trace.iter().zip(felt);
     let [p, t] = [&predicted.trace, &truth.trace].map(|trace| Course::of(trace));
     let signal_rms = rms(samples());
+    let signal_mae = mean(samples().map(|(a, b)| (a - b).abs()));
     [
         rms(bins()),
         mean(bins().map(|(a, b)| (a - b).abs())),
         signal_rms,
-        mean(samples().map(|(a, b)| (a - b).abs())),
+        signal_mae,
         100.0 * signal_rms / t.level,
         100.0 * (p.level - t.level).abs() / t.level,
         deviation(&predicted.trace) / deviation(felt),
@@ -93,6 +94,7 @@ pub(crate) fn score(predicted: &Prediction, felt: &[f64]) -> [f64; MEASURES.len(
         band_error(&predicted.magnitudes, &truth.magnitudes),
         (period_mm(&predicted.magnitudes) - period_mm(&truth.magnitudes)).abs(),
         correlation(&predicted.trace, felt),
+        100.0 * signal_mae / t.level,
     ]
 }
 
@@ -173,20 +175,24 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::example::Split;
+    use crate::split::Split;
 
     #[test]
     fn a_perfect_prediction_has_no_error_and_a_constant_has_the_stated_ones() {
         let example = Split::Cloths.windows(1)[1][0].taken();
         let felt = &example.trace;
         let perfect = score(&Prediction::of_trace(felt.clone()), felt);
-        let expected = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+        let expected = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
         for ((found, expected), measure) in perfect.iter().zip(expected).zip(MEASURES) {
             assert!((found - expected).abs() < 1e-9, "{measure}: {found}");
         }
         let level = example.course.level;
         let flat = score(&Prediction::of_trace(vec![1.02 * level; felt.len()]), felt);
         assert!((flat[LEVEL] - 2.0).abs() < 1e-9, "{}", flat[LEVEL]);
+        assert!(
+            (flat[11] - 100.0 * flat[3] / level).abs() < 1e-9,
+            "{flat:?}"
+        );
         assert!(
             flat[LOG_SPECTRAL] > 5.0 && flat[10] == 0.0 && flat[6] < 1e-9,
             "{flat:?}"

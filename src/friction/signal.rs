@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use selvedge_foundation::numerics::{Grid, GriffinLim, StartPhases, Stft, to_single};
+use selvedge_foundation::numerics::{Complex, Grid, GriffinLim, StartPhases, Stft, to_single};
 
 /// Samples of a frame and from frame to frame, as Cai et al. (2021) have them.
 pub(crate) const FRAME: usize = 512;
@@ -34,6 +34,11 @@ pub(crate) struct Course {
 /// The spectra of a trace.
 pub(crate) fn spectra() -> Stft {
     Stft::hamming(FRAME, HOP)
+}
+
+/// The magnitudes of a whole trace, for those that predict them whole.
+pub(crate) fn magnitudes_of(trace: &[f64]) -> Grid<f64> {
+    spectra().forward(trace).map(Complex::norm)
 }
 
 impl Course {

@@ -97,9 +97,11 @@ pub fn studies() -> Vec<Study> {
         drape::ORDERS,
         drape::STABILITY,
         #[cfg(feature = "friction")]
-        friction::SPECTRA,
+        friction::griffin_lim::STUDY,
         #[cfg(feature = "friction")]
-        friction::PICTURES,
+        friction::pictures::STUDY,
+        #[cfg(feature = "friction")]
+        friction::training::STUDY,
         statistics::STUDY,
         mds::STUDY,
         staircases::STUDY,

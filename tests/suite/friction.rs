@@ -119,6 +119,7 @@ fn a_short_training_is_kept_told_and_put_into_a_table() {
         "--splits",
         "C",
         "--only-finished",
+        "--own",
     ];
     let told = lab.print(&evaluate);
     assert!(told.starts_with("C: unseen places"), "{told}");
@@ -129,6 +130,17 @@ fn a_short_training_is_kept_told_and_put_into_a_table() {
         told.contains(&format!("besides: {name}: spectrum ")),
         "{told}"
     );
+    // What the folder lacks is taken from the runs that are shipped.
+    let told = lab.print(&evaluate[..evaluate.len() - 1]);
+    assert!(told.contains("\nridge "), "{told}");
+    assert!(lab.read("runs/table.csv").lines().count() > 9);
+    // A row a family.
+    assert_eq!(lab.read("runs/families.csv").lines().count(), 9);
+    let kept = lab.read("runs/runs.csv");
+    let row = kept.lines().nth(1).unwrap();
+    assert!(row.starts_with(&format!("{name},ours,C,1,16,1,")), "{row}");
+    let cpu_s = row.split(',').rev().nth(1).unwrap();
+    assert!(cpu_s.parse::<f64>().unwrap() > 0.0, "{row}");
     let [traces, latents] = ["traces", "latents"].map(|name| lab.read(&format!("runs/{name}.svg")));
     assert!(traces.contains("nonwoven: felt") && traces.contains("dB off"));
     assert!(latents.contains("% of the variance"));

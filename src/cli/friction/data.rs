@@ -172,3 +172,95 @@ pub(super) fn brightness(image: &Path) -> Result<Grid<f32>, CliError> {
     let picture = selvedge_textile::picture::Picture::load(&bytes, image)?;
     Ok(picture.luminance.map(to_single))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+    use selvedge_foundation::files::GrayImage;
+    use selvedge_friction::Taken;
+    use selvedge_scratch::ScratchFolder;
+
+    #[derive(Debug, Parser)]
+    struct Asked {
+        #[command(flatten)]
+        data: DataArgs,
+    }
+
+    fn fabrics(folder: &Path, more: &[&str]) -> Result<Vec<Fabric>, CliError> {
+        let folder = folder.to_string_lossy();
+        let args = ["asked", "--data", &*folder, "--px-per-mm", "10"];
+        let asked = Asked::parse_from(args.iter().chain(more));
+        assert_eq!(asked.data.name().as_deref(), Some("mine"));
+        asked.data.fabrics().map(Option::unwrap)
+    }
+
+    /// Puts a fabric of 60 mm x 12 mm with a trace into a folder.
+    fn put(folder: &ScratchFolder, trace: &str) {
+        let values = (0..600 * 120_u32).map(|i| f64::from(i % 97) / 97.0);
+        let picture = GrayImage {
+            width: 600,
+            height: 120,
+            values: GrayImage::values_of(values),
+            white: u16::MAX,
+            texts: Vec::new(),
+        };
+        let png = picture.to_png("velvet.png".as_ref()).unwrap();
+        folder.write("velvet.png", png);
+        folder.write("velvet.csv", trace);
+    }
+
+    #[test]
+    fn a_trace_of_places_has_their_scale_and_one_of_numbers_the_one_that_is_given() {
+        let folder = ScratchFolder::made("mine");
+        let mu = |at: i32| 0.4 + 0.01 * f64::from(at % 5);
+        let places: String = (0..700)
+            .map(|at| format!("{},{}\n", 3.0 + f64::from(at) / 12.5, mu(at)))
+            .collect();
+        put(&folder, &format!("x_mm,mu\n{places}"));
+        let found = &fabrics(&folder, &[]).unwrap()[0];
+        assert_eq!((found.name.as_str(), found.px_per_mm), ("velvet", 10.0));
+        assert_eq!([found.picture.width(), found.picture.height()], [600, 120]);
+        assert!((found.samples_per_mm - 12.5).abs() < 1e-9);
+        assert_eq!(found.trace, (0..700).map(mu).collect::<Vec<_>>());
+        // As HapTex has them: a number a line, blank lines between.
+        let numbers: String = (0..700).map(|at| format!("{}\n\n", mu(at))).collect();
+        put(&folder, &numbers);
+        for (more, samples_per_mm) in [
+            (&[] as &[&str], 12.9),
+            (&["--samples-per-mm", "12.5"], 12.5),
+        ] {
+            let found = &fabrics(&folder, more).unwrap()[0];
+            assert_eq!(found.samples_per_mm, samples_per_mm);
+            assert_eq!(found.trace, (0..700).map(mu).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn a_trace_that_is_none_is_refused_with_its_file_and_line() {
+        let folder = ScratchFolder::made("mine");
+        for (trace, said) in [
+            ("x_mm,mu\n0,0.3\n0.1,0.3\n0.5,0.3\n", "even steps"),
+            ("x_mm,mu\n", "even steps"),
+            ("x_mm,mu\n1,0.3\n0,0.3\n", "even steps"),
+            ("0.3\nwool\n", "\"wool\" is no number"),
+            ("0.3\nNaN\n", "\"NaN\" is no number"),
+        ] {
+            put(&folder, trace);
+            let refused = fabrics(&folder, &[]).unwrap_err().to_string();
+            assert!(refused.contains(said), "{trace:?}: {refused}");
+            assert!(refused.contains("velvet.csv"), "{refused}");
+        }
+        // Numbers that are no friction are refused with the fabric's name when it is learnt from.
+        for trace in ["", "-0.3\n-0.3\n"] {
+            put(&folder, trace);
+            let one = fabrics(&folder, &[]).unwrap().swap_remove(0);
+            let refused = Taken::of_fabrics(&[one.clone(), one.clone(), one]).unwrap_err();
+            let refused = refused.to_string();
+            assert!(
+                refused.contains("velvet: its friction is none"),
+                "{refused}"
+            );
+        }
+    }
+}

@@ -5,15 +5,16 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::data::DataArgs;
-use super::{folder, pages};
+use super::table::{Row, SHOWN, table};
+use super::{folder, pages, run_timed};
 use crate::CliError;
 use crate::output::{TableOut, print};
-use crate::terminal::{self, with_meter};
+use crate::terminal::with_meter;
 use crate::usage::one_of;
 use selvedge_foundation::numerics::n_threads;
 use selvedge_foundation::quantity::fixed;
 use selvedge_friction::{
-    Baseline, Contestant, Fabric, FrictionError, Lesson, Method, Run, Scores, Split, Taken,
+    Baseline, Contestant, Fabric, FrictionError, KeptRun, Lesson, Method, Run, Scores, Split, Taken,
 };
 
 /// Which runs are put together.
@@ -29,15 +30,11 @@ pub(crate) struct EvaluateArgs {
     /// Leave the simple methods out that are not finished (they take minutes a split)
     #[arg(long)]
     only_finished: bool,
+    /// Tell of the runs of this folder alone, not of those that are shipped
+    #[arg(long)]
+    own: bool,
     #[command(flatten)]
     data: DataArgs,
-}
-
-/// A row of the table: who, how many runs, each measure's mean and deviation over seeds.
-struct Row {
-    name: &'static str,
-    n_runs: usize,
-    measures: [[f64; 2]; Scores::N],
 }
 
 pub(super) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
@@ -56,9 +53,14 @@ pub(super) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
         .collect();
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let mut csv = TableOut::new(Some(&path), &header)?;
+    let shipped = if args.own {
+        Vec::new()
+    } else {
+        KeptRun::shipped()?
+    };
     let mut lines = Vec::new();
     for &split in &args.splits {
-        let (rows, missing) = rows(args, split)?;
+        let (rows, missing) = rows(args, split, &shipped)?;
         lines.push(format!("{}: {}", split.letter(), split.describe()));
         lines.extend(table(&rows));
         for row in &rows {
@@ -80,11 +82,32 @@ pub(super) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
         lines.push(String::new());
     }
     csv.finish()?;
+    families(args)?;
     lines.extend(others(args)?);
     if let Some(&split) = args.splits.first() {
         pages::draw(&args.out, split, n_threads())?;
     }
     print(&lines.join("\n"))
+}
+
+/// Writes the means of every family, a row a run of the folder and a family.
+fn families(args: &EvaluateArgs) -> Result<(), CliError> {
+    let path = args.out.join("families.csv");
+    let header: Vec<&str> = ["run", "family"]
+        .into_iter()
+        .chain(Scores::COLUMNS)
+        .collect();
+    let mut csv = TableOut::new(Some(&path), &header)?;
+    for (name, scores) in Run::all_finished(&args.out)? {
+        for (family, means) in scores.by_cloth() {
+            let cells = csv.rows().text(&name).text(family);
+            for mean in means {
+                cells.number(mean);
+            }
+            cells.end_row()?;
+        }
+    }
+    csv.finish()
 }
 
 /// A run of the table.
@@ -110,6 +133,7 @@ fn others(args: &EvaluateArgs) -> Result<Vec<String>, CliError> {
     };
     let of_split = |split: Split| {
         let simple = Baseline::ALL.into_iter().map(Contestant::Baseline);
+        let simple = simple.chain([Contestant::Shipped]);
         let all = simple.chain(lessons(split).map(Contestant::Network));
         all.map(move |contestant| kept(args, split, contestant).name())
     };
@@ -170,22 +194,33 @@ fn not_run(args: &EvaluateArgs, split: Split, method: Method, seeds: &[u64]) -> 
 
 type Missing = Vec<(Method, Vec<u64>)>;
 
-fn rows(args: &EvaluateArgs, split: Split) -> Result<(Vec<Row>, Missing), CliError> {
-    let mut rows = Vec::new();
-    for (baseline, scores) in baselines(args, split)? {
-        rows.push(Row {
-            name: baseline.word(),
-            n_runs: 1,
-            measures: scores.mean().map(|mean| [mean, 0.0]),
-        });
+/// Each measure's mean over held-back windows.
+type Means = [f64; Scores::N];
+
+/// What came of a run: of the folder's, or else of the shipped one.
+fn means(run: &Run<'_>, shipped: &[KeptRun]) -> Result<Option<Means>, CliError> {
+    if let Some(scores) = run.finished()? {
+        return Ok(Some(scores.mean()));
     }
+    let name = run.name();
+    let kept = shipped.iter().find(|kept| kept.name == name);
+    Ok(kept.map(|kept| kept.measures))
+}
+
+fn rows(
+    args: &EvaluateArgs,
+    split: Split,
+    shipped: &[KeptRun],
+) -> Result<(Vec<Row>, Missing), CliError> {
+    let mut rows = simple(args, split, shipped)?;
     let mut missing = Vec::new();
     for method in Method::ALL {
         let (mut found, mut not_run) = (Vec::new(), Vec::new());
         for seed in method.seeds(split) {
             let lesson = Lesson::usual(method, seed);
-            match kept(args, split, Contestant::Network(lesson)).finished()? {
-                Some(scores) => found.push(scores.mean()),
+            let run = kept(args, split, Contestant::Network(lesson));
+            match means(&run, shipped)? {
+                Some(means) => found.push(means),
                 None => not_run.push(seed),
             }
         }
@@ -203,30 +238,39 @@ fn rows(args: &EvaluateArgs, split: Split) -> Result<(Vec<Row>, Missing), CliErr
     Ok((rows, missing))
 }
 
-/// Scores of the simple methods: those that are kept, and those that are made now.
-fn baselines(args: &EvaluateArgs, split: Split) -> Result<Vec<(Baseline, Scores)>, CliError> {
-    let mut found = Vec::new();
+/// Rows of what learns nothing by rounds: what is kept, and what is made now. The shipped networks
+/// know what B and C hold back.
+fn simple(args: &EvaluateArgs, split: Split, shipped: &[KeptRun]) -> Result<Vec<Row>, CliError> {
+    let simple = Baseline::ALL.into_iter();
+    let all = simple.map(|baseline| (baseline.word(), Contestant::Baseline(baseline)));
+    let of_shipped = (Contestant::SHIPPED, Contestant::Shipped);
+    let all = all.chain((split == Split::Cloths).then_some(of_shipped));
+    let mut rows = Vec::new();
     let mut taken = None;
-    for baseline in Baseline::ALL {
-        let run = kept(args, split, Contestant::Baseline(baseline));
-        if let Some(scores) = run.finished()? {
-            found.push((baseline, scores));
-        } else if !args.only_finished {
+    for (name, contestant) in all {
+        let run = kept(args, split, contestant);
+        let mut found = means(&run, shipped)?;
+        if found.is_none() && !args.only_finished {
             let scores = with_meter("evaluate", |progress| -> Result<Scores, FrictionError> {
                 let step = progress.step(0.0, "making pictures of cloth");
                 step.map_err(|_stopped| FrictionError::Cancelled)?;
                 let taken =
                     taken.get_or_insert_with(|| Taken::of(split, Split::N_CLOTHS, n_threads()));
-                run.run(taken, progress, &mut |said| terminal::line(said))
+                run_timed(&run, taken, progress)
             })??;
-            found.push((baseline, scores));
+            found = Some(scores.mean());
         }
+        rows.extend(found.map(|means| Row {
+            name,
+            n_runs: 1,
+            measures: means.map(|mean| [mean, 0.0]),
+        }));
     }
-    Ok(found)
+    Ok(rows)
 }
 
 /// Mean and standard deviation (0 of a single run) of runs with other seeds.
-fn over_seeds(runs: &[[f64; Scores::N]]) -> [[f64; 2]; Scores::N] {
+fn over_seeds(runs: &[Means]) -> [[f64; 2]; Scores::N] {
     let n = runs.len() as f64;
     std::array::from_fn(|measure| {
         let mean = runs.iter().map(|run| run[measure]).sum::<f64>() / n;
@@ -236,37 +280,4 @@ fn over_seeds(runs: &[[f64; Scores::N]]) -> [[f64; 2]; Scores::N] {
             .sum::<f64>();
         [mean, (squares / (n - 1.0).max(1.0)).sqrt()]
     })
-}
-
-/// What is read first: spectra, level, deviations, the paper's own measures.
-const SHOWN: [(usize, &str, usize); 8] = [
-    (Scores::LOG_SPECTRAL, "spectrum dB", 2),
-    (Scores::LEVEL, "level %", 2),
-    (8, "bands dB", 2),
-    (6, "deviations", 2),
-    (9, "period mm", 2),
-    (10, "correlation", 2),
-    (0, "spectrogram RMSE", 3),
-    (4, "signal RMSE %", 2),
-];
-
-fn table(rows: &[Row]) -> Vec<String> {
-    let line = |name: &str, runs: &str, cells: Vec<String>| {
-        let cells: Vec<_> = cells.iter().map(|cell| format!("{cell:>16}")).collect();
-        format!("{name:17} {runs:>4}  {}", cells.join("  "))
-    };
-    let head = SHOWN.map(|(_, name, _)| name.to_owned());
-    let row = |row: &Row| {
-        let cell = |(measure, _, digits): (usize, &str, usize)| {
-            let [mean, sd] = row.measures[measure].map(|number| fixed(number, digits));
-            if row.n_runs > 1 {
-                format!("{mean} ± {sd}")
-            } else {
-                mean
-            }
-        };
-        line(row.name, &row.n_runs.to_string(), SHOWN.map(cell).to_vec())
-    };
-    let head = line("method", "runs", head.to_vec());
-    std::iter::once(head).chain(rows.iter().map(row)).collect()
 }

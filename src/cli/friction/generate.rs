@@ -10,8 +10,7 @@ use crate::output::{TableOut, write_bytes};
 use crate::picture::positive;
 use crate::terminal;
 use selvedge_foundation::files::{EditedKeys, KeyValue, Rgb8Image, read_text, write_atomic};
-use selvedge_foundation::numerics::{extent, to_byte};
-use selvedge_foundation::quantity::fixed;
+use selvedge_foundation::numerics::{Grid, extent, to_byte};
 use selvedge_friction::{PredictedFriction, Predictor};
 use selvedge_textile::Manifest;
 
@@ -62,7 +61,7 @@ pub(super) fn run(args: &GenerateArgs) -> Result<(), CliError> {
     if let Some(path) = &args.spectrogram {
         write_bytes(path, &spectrogram(&found).to_png(path)?)?;
     }
-    terminal::notice(&describe(&found));
+    terminal::notice(&format!("mean friction {}", found.certainty()));
     Ok(())
 }
 
@@ -101,34 +100,20 @@ fn share(text: &str) -> Result<f64, String> {
     share.ok_or_else(|| "give a share from 0 to 1".to_owned())
 }
 
-/// How sure this is.
-fn describe(found: &PredictedFriction) -> String {
-    let worst = found.bands.iter().map(|[.., db]| *db).fold(0.0, f64::max);
-    format!(
-        "mean friction {} ± {} (95 % of cloths like those that were learnt: procedural ones), \
-         spectrum within {} dB a bin; a picture tells little of an unseen material's friction",
-        fixed(found.level(), 3),
-        fixed(found.level_within, 3),
-        fixed(worst, 1)
-    )
-}
-
 /// Pixels of a frame in a picture.
 const WIDE: usize = 16;
 
 /// Log magnitudes, dark to light, lowest row at the bottom.
 fn spectrogram(found: &PredictedFriction) -> Rgb8Image {
     let log = found.log_magnitudes();
-    let [low, high] = extent(log.values().iter().map(|&log| f64::from(log)));
-    let shade = |value: f32| to_byte(255.0 * (f64::from(value) - low) / (high - low).max(1e-9));
-    let (n_bins, n_frames) = (log.width(), log.height());
-    let row = |bin: usize| (0..n_frames * WIDE).map(move |column| (bin, column / WIDE));
-    let pixels = (0..n_bins).rev().flat_map(row);
+    let ends = extent(log.values().iter().map(|&log| f64::from(log)));
+    let shades = PredictedFriction::shades(log, log.width(), ends);
+    let wide = Grid::from_fn(shades.width() * WIDE, shades.height(), |column, row| {
+        [to_byte(255.0 * shades.row(row)[column / WIDE]); 3]
+    });
     Rgb8Image {
-        width: n_frames * WIDE,
-        height: n_bins,
-        pixels: pixels
-            .map(|(bin, frame)| [shade(log.row(frame)[bin]); 3])
-            .collect(),
+        width: wide.width(),
+        height: wide.height(),
+        pixels: wide.values().to_vec(),
     }
 }

@@ -4,6 +4,7 @@ mod data;
 mod evaluate;
 mod generate;
 mod pages;
+mod table;
 mod train;
 
 use std::path::Path;
@@ -11,6 +12,9 @@ use std::path::Path;
 use clap::Subcommand;
 
 use super::CliError;
+use super::terminal;
+use selvedge_foundation::progress::{Progress, thread_cpu_seconds};
+use selvedge_friction::{FrictionError, KeptRun, Run, Scores, Taken};
 
 /// What is done.
 #[derive(Debug, Subcommand)]
@@ -35,4 +39,19 @@ pub(super) fn run(command: &FrictionCommand) -> Result<(), CliError> {
 /// The folder of runs, made where it is missing.
 fn folder(out: &Path) -> Result<(), CliError> {
     super::output::make_folder(out, "name another with --out")
+}
+
+/// Runs it to its end and puts it into its folder's table, with what it cost unless it was broken
+/// off before. All of it runs on this thread.
+fn run_timed(
+    run: &Run<'_>,
+    taken: &Taken,
+    progress: &mut Progress<'_>,
+) -> Result<Scores, FrictionError> {
+    let is_whole = !run.is_begun();
+    let start_s = thread_cpu_seconds();
+    let scores = run.run(taken, progress, &mut |said| terminal::line(said))?;
+    let cpu_s = is_whole.then(|| ((thread_cpu_seconds() - start_s) * 10.0).round() / 10.0);
+    KeptRun::of(run, &scores, cpu_s).keep(run.folder)?;
+    Ok(scores)
 }

@@ -138,14 +138,12 @@ fn along(trace: &[f64]) -> impl Iterator<Item = [f64; 2]> {
 }
 
 /// Log magnitudes from white to black, a column a frame.
-fn raster(log: &Grid<f32>, [low, high]: [f64; 2]) -> Raster {
-    let shade =
-        |value: f32| to_byte(255.0 * (1.0 - (f64::from(value) - low) / (high - low).max(1e-9)));
-    let cell =
-        |bin: usize| (0..log.height()).map(move |frame| Some([shade(log.row(frame)[bin]); 3]));
+fn raster(log: &Grid<f32>, ends: [f64; 2]) -> Raster {
+    let shades = PredictedFriction::shades(log, N_BINS, ends);
+    let cell = |shade: &f64| Some([to_byte(255.0 * (1.0 - shade)); 3]);
     Raster {
-        n_columns: log.height(),
-        cells: (0..N_BINS).rev().flat_map(cell).collect(),
+        n_columns: shades.width(),
+        cells: shades.values().iter().map(cell).collect(),
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::data::DataArgs;
-use super::folder;
+use super::{folder, run_timed};
 use crate::CliError;
 use crate::terminal::{self, with_meter};
 use crate::usage::one_of;
@@ -87,9 +87,63 @@ pub(super) fn run(args: &TrainArgs) -> Result<(), CliError> {
             None => Taken::of(args.split, args.cloths as usize, n_threads()),
         };
         for run in wanted {
-            run.run(&taken, progress, &mut |said| terminal::line(said))?;
+            run_timed(&run, &taken, progress)?;
         }
         Ok(())
     })??;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+    use selvedge_foundation::files::GrayImage;
+    use selvedge_scratch::ScratchFolder;
+
+    #[derive(Debug, Parser)]
+    struct Asked {
+        #[command(flatten)]
+        train: TrainArgs,
+    }
+
+    #[test]
+    fn networks_learn_from_a_folder_of_fabrics_and_one_of_five_is_held_back() {
+        let folder = ScratchFolder::made("mine");
+        for nth in 0..5_u32 {
+            let values = (0..600 * 110_u32).map(|i| f64::from(i * (nth + 1) % 97) / 97.0);
+            let picture = GrayImage {
+                width: 600,
+                height: 110,
+                values: GrayImage::values_of(values),
+                white: u16::MAX,
+                texts: Vec::new(),
+            };
+            let name = format!("cloth{nth}.png");
+            folder.write(&name, picture.to_png(name.as_ref()).unwrap());
+            let mu = |at: u32| format!("{}\n", 0.3 + 0.01 * f64::from(at % (3 + nth)));
+            let trace: String = (0..700).map(mu).collect();
+            folder.write(&format!("cloth{nth}.csv"), trace);
+        }
+        let out = ScratchFolder::new("runs");
+        let [data, to] = [&folder, &out].map(|folder| folder.to_string_lossy());
+        let args = ["train", "--out", &to, "--data", &data, "--px-per-mm", "10"];
+        let short = ["--rounds", "1", "--width", "2", "--seeds", "3"];
+        let asked = Asked::parse_from(args.iter().chain(&short));
+        run(&asked.train).unwrap();
+        let name = "ours-mine-3-width-2-rounds-1";
+        let scores = out.read(&format!("{name}.scores.csv"));
+        let of: Vec<_> = scores.lines().skip(1).collect();
+        assert_eq!(of.len(), 1, "{scores}");
+        assert!(of[0].starts_with("cloth4,0,0,"), "{scores}");
+        let kept = out.read("runs.csv");
+        assert!(
+            kept.lines()
+                .nth(1)
+                .unwrap()
+                .starts_with(&format!("{name},ours,mine,3,2,1,"))
+        );
+        let cpu_s = kept.trim().rsplit(',').nth(1).unwrap();
+        assert!(cpu_s.parse::<f64>().unwrap() > 0.0, "{kept}");
+    }
 }

@@ -123,6 +123,19 @@ impl Stft {
         signal
     }
 
+    /// How far a signal's magnitudes are from others: `‖|X| − M‖ / ‖M‖`; 0 where both are silent.
+    pub fn spectral_error(&self, signal: &[f64], magnitudes: &Grid<f64>) -> f64 {
+        let spectra = self.forward(signal);
+        let pairs = spectra.values().iter().zip(magnitudes.values());
+        let (miss, all) = pairs.fold((0.0, 0.0), |(miss, all), (x, m)| {
+            (miss + (x.norm() - m).powi(2), all + m * m)
+        });
+        if miss == 0.0 {
+            return 0.0;
+        }
+        (miss / all).sqrt()
+    }
+
     fn begun(magnitudes: &Grid<f64>, start: StartPhases<'_>) -> Grid<Complex> {
         let (seed, is_constant) = match start {
             StartPhases::Random(seed) => (seed, false),
@@ -255,19 +268,6 @@ mod tests {
         stft.forward(signal).map(Complex::norm)
     }
 
-    /// How far a signal's magnitudes are from others: `‖|X| − M‖ / ‖M‖`; 0 where both are silent.
-    fn spectral_error(stft: &Stft, signal: &[f64], magnitudes: &Grid<f64>) -> f64 {
-        let spectra = stft.forward(signal);
-        let pairs = spectra.values().iter().zip(magnitudes.values());
-        let (miss, all) = pairs.fold((0.0, 0.0), |(miss, all), (x, m)| {
-            (miss + (x.norm() - m).powi(2), all + m * m)
-        });
-        if miss == 0.0 {
-            return 0.0;
-        }
-        (miss / all).sqrt()
-    }
-
     #[test]
     fn a_sine_and_a_constant_have_the_stated_magnitudes() {
         let stft = Stft::hamming(512, 128);
@@ -306,7 +306,7 @@ mod tests {
             let wanted = magnitudes(&stft, &signal);
             let found = |start| {
                 let found = stft.griffin_lim(&wanted, 1280, start, GriffinLim::default());
-                spectral_error(&stft, &found, &wanted)
+                stft.spectral_error(&found, &wanted)
             };
             let error = found(StartPhases::OfConstant(seed));
             assert!(error <= 0.01, "seed {seed}: {error}");
@@ -337,7 +337,7 @@ mod tests {
             let start = StartPhases::Random(1);
             let found = stft.griffin_lim(&wanted, n_samples, start, GriffinLim::default());
             assert!(found.iter().all(|&x| x == 0.0), "{n_samples}: {found:?}");
-            assert_eq!(spectral_error(&stft, &found, &wanted), 0.0);
+            assert_eq!(stft.spectral_error(&found, &wanted), 0.0);
             let all = stft.forward(&vec![1.0; n_samples]);
             assert!(all.values().iter().all(|x| x.is_finite()), "{n_samples}");
         }

@@ -15,7 +15,7 @@ mod photo;
 mod recipe;
 mod relief;
 
-pub(crate) use finger::FINGER_ROWS;
+pub(crate) use finger::{FINGER_ROWS, Rubbed};
 pub(crate) use photo::Camera;
 pub(crate) use recipe::{Family, Recipe};
 

@@ -1,14 +1,11 @@
 //! What a cloth is: its family and its figures, drawn from a seed.
 
-use serde::{Deserialize, Serialize};
-
 use selvedge_foundation::named;
 use selvedge_foundation::numerics::Random;
 
 named! {
     /// How a cloth is made.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-    #[serde(rename_all = "kebab-case")]
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
     pub enum Family {
         /// Over one, under one.
         Plain = "plain",

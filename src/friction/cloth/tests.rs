@@ -1,7 +1,6 @@
 //! What procedural cloth promises: the same place is the same in every part; figures of friction
 //! lie where they were measured; a print changes the picture and not the friction.
 
-use super::finger::{FINGER_ROWS, Rubbed};
 use super::*;
 
 fn strip(columns: [usize; 2]) -> Area {

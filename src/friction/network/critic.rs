@@ -14,16 +14,14 @@ named! {
     pub enum AdversarialLoss {
         /// Cross entropy of felt against generated, as the authors' code has it, its weights
         /// clipped as there.
-        Entropy = "bce", "binary cross entropy, weights clipped to ±0.01 (the authors' code)",
+        Entropy = "bce",
         /// The difference of means, weights clipped (Arjovsky et al. 2017), as the paper says.
-        Wasserstein = "wasserstein", "Wasserstein, weights clipped to ±0.01 (the paper)",
+        Wasserstein = "wasserstein",
         /// Cross entropy with kernels scaled to a largest gain of 1 (Miyato et al. 2018).
-        Spectral = "spectral", "binary cross entropy, spectral normalisation",
+        Spectral = "spectral",
     }
     /// Its name on the command line.
     pub fn word;
-    /// What it is.
-    pub fn describe;
 }
 
 /// How far weights may be from 0 where they are clipped.
@@ -45,7 +43,7 @@ impl Critic {
                 .with_padding(PaddingConfig2d::Explicit(1, 1, 1, 1))
                 .init(device)
         };
-        // Frames are few and are halved twice, bins three times.
+        // Frames are few and are halved once, bins three times.
         let layers = vec![
             conv([n_inputs, width], [4, 4], [2, 2]),
             conv([width, 2 * width], [3, 4], [1, 2]),

@@ -1,11 +1,23 @@
 //! `FrictGAN` (Cai et al. 2021), built anew from the paper and its authors' description, at a
 //! quarter and less of its size.
 //!
-//! What differs: pictures have 512 × 512 pixels of 1/12.8 mm where theirs have 1024 × 1024; the
-//! first layer has 4 channels where theirs has 32, and none more than 64 where theirs have 512;
-//! answers start from the mean magnitude of each bin (theirs has to find that the mean is 108);
-//! the rate of learning is ten times theirs, since there are as many rounds as ten minutes have
-//! room for; at inference batch statistics are those of training and nothing is dropped.
+//! What differs from the authors' code:
+//! - pictures have 512 × 512 pixels of 1/12.8 mm where theirs have 1024 × 1024 of 1/11.81 mm, and
+//!   picture and trace stay registered, where theirs slide apart by a factor of two;
+//! - the encoder has seven layers of 4 to 64 channels where theirs has eight of 32 to 512; the
+//!   decoder 64 to 4 where theirs has 512 to 32, the layer after the noise 64 where theirs has 512;
+//! - the decoder widens by a frame after its stages of 32, 64 and 128 bins, theirs after those of
+//!   16, 32 and 64, and its kernels are 4 × 4 and 4 × 3 where theirs are 4 × 4 and 3 × 3;
+//! - answers start from the mean magnitude of each bin (theirs has to find that the mean is 108),
+//!   with no rectifier at the end while it learns: what is below 0 is cut off when it is asked;
+//! - the critic has 16 to 128 channels where theirs has 64 to 512, halves frames once and bins three
+//!   times where theirs halves frames twice and bins three times, with smaller kernels;
+//! - the critic's five steps are on one batch, whose pictures are encoded once;
+//! - the rate of learning is ten times theirs and falls to a hundredth by half a cosine, over the
+//!   four rounds that ten minutes have room for, where theirs stays the same for 200;
+//! - when it is asked, batch statistics are those of training, nothing is dropped and the noise is
+//!   0, where theirs goes on as in training;
+//! - Griffin and Lim begin with a constant's phases and no absolute value is taken at the end.
 
 use burn::module::Module;
 use burn::nn::conv::{Conv2d, Conv2dConfig, ConvTranspose2d, ConvTranspose2dConfig};

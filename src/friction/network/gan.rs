@@ -13,10 +13,9 @@ use super::learn::{L1_WEIGHT, Learner, Losses, Network, number};
 use super::lesson::Lesson;
 use super::weights::{Weights, drawn, tensor, values};
 use crate::FrictionError;
-use crate::baseline::magnitudes_of;
 use crate::example::Example;
 use crate::score::Prediction;
-use crate::signal::N_BINS;
+use crate::signal::{N_BINS, magnitudes_of};
 
 /// Steps of the critic for one of the generator.
 const N_CRITIC_STEPS: usize = 5;

@@ -1,7 +1,5 @@
 //! What is learnt how.
 
-use serde::{Deserialize, Serialize};
-
 use selvedge_foundation::named;
 
 use super::critic::AdversarialLoss;
@@ -9,20 +7,17 @@ use super::registered::Size;
 
 named! {
     /// Which network learns.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-    #[serde(rename_all = "kebab-case")]
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
     pub enum Method {
         /// Registered strips, level, trend and spectra apart.
-        Ours = "ours", "registered strips; level, trend and spectra apart",
+        Ours = "ours",
         /// The same with a critic.
-        OursAdversarial = "ours-adversarial", "the same with a critic",
-        /// `FrictGAN` built anew.
-        FrictGan = "frictgan", "FrictGAN (Cai et al. 2021) built anew, at reduced size",
+        OursAdversarial = "ours-adversarial",
+        /// `FrictGAN` (Cai et al. 2021) built anew, at reduced size.
+        FrictGan = "frictgan",
     }
     /// Its name on the command line and in tables.
     pub fn word;
-    /// What it is.
-    pub fn describe;
 }
 
 /// What is learnt how.

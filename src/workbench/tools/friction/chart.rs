@@ -101,15 +101,13 @@ pub(crate) fn spectrogram_frame(trace: &Trace) -> Chart {
 /// The cells of the spectrogram, and the bar of their colours.
 pub(crate) fn spectrogram_cells(trace: &Trace, map: ColourMap) -> (Raster, ColourBar) {
     let log = trace.predicted.log_magnitudes();
-    let (n_bins, n_frames) = (log.width(), log.height());
     let ends = extent(log.values().iter().map(|&log| f64::from(log)));
-    let share = |log: f32| (f64::from(log) - ends[0]) / (ends[1] - ends[0]).max(1e-9);
-    let cells = (0..n_bins)
-        .rev()
-        .flat_map(|bin| (0..n_frames).map(move |frame| Some(rgb(map, share(log.row(frame)[bin])))));
+    let shades = PredictedFriction::shades(log, log.width(), ends);
     let raster = Raster {
-        n_columns: n_frames,
-        cells: cells.collect(),
+        n_columns: shades.width(),
+        cells: (shades.values().iter())
+            .map(|&shade| Some(rgb(map, shade)))
+            .collect(),
     };
     let axis = Axis::linear("ln(1 + m / 0.02)").within(ends);
     (raster, bar(map, axis))

@@ -15,10 +15,9 @@ use crate::kit::widgets::list::list;
 use crate::kit::widgets::scale::{Curve, Scale};
 use crate::kit::widgets::slider::{slider_row, tell};
 use crate::kit::widgets::text::{button, quiet_pairs, row, toggles};
-use crate::tools::friction::source::{Source, Trace};
+use crate::tools::friction::source::Source;
 use crate::tools::friction::stroke::{BARE_MU, PRESS_N, STROKE_MM_PER_S};
 use crate::tools::friction::{Friction, TableOf};
-use selvedge_foundation::numerics::extent;
 use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_render::electrovibration::{Carrier, Electrovibration};
 
@@ -33,7 +32,8 @@ pub(crate) fn show(ui: &mut Ui, friction: &mut Friction, context: &mut PaneConte
     show_picture(ui, friction, context);
     let trace = friction.trace().and_then(Result::ok).map(Arc::clone);
     if let Some(trace) = &trace {
-        note(ui, &certainty(trace), Tone::Quiet);
+        let words = format!("Mean {}", trace.predicted.certainty());
+        note(ui, &words, Tone::Quiet);
     }
     ui.add_space(STEP);
     step_title(ui, 2, "Electrovibration", "V(s, t) = b f(s) Y(t)");
@@ -53,20 +53,6 @@ pub(crate) fn show(ui: &mut Ui, friction: &mut Friction, context: &mut PaneConte
             toggles(ui, &mut friction.table, &tables);
         });
     }
-}
-
-/// How sure what was predicted is.
-fn certainty(trace: &Trace) -> String {
-    let found = &trace.predicted;
-    let [least, most] = extent(found.bands.iter().map(|[.., db]| *db));
-    format!(
-        "Mean {} ± {} in 95 % of cloths like those learnt, procedural ones; spectrum within {} to \
-         {} dB by band. A picture tells little of an unseen material’s friction.",
-        fixed(found.level(), 3),
-        fixed(found.level_within, 3),
-        fixed(least, 1),
-        fixed(most, 1)
-    )
 }
 
 fn show_picture(ui: &mut Ui, friction: &mut Friction, context: &mut PaneContext<'_>) {

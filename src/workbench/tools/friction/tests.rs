@@ -6,8 +6,8 @@ use crate::bench::command::friction::PictureAtHand;
 use crate::bench::command::{PlayCommand, PlaySource};
 use crate::bench::export::Exportable;
 use crate::shell::headless::Headless;
-use selvedge_foundation::numerics::{Grid, to_single};
-use selvedge_render::electrovibration::Carrier;
+use selvedge_foundation::numerics::{Grid, extent, to_single};
+use selvedge_render::electrovibration::{Carrier, SimulatedScreen};
 
 /// Pixels to a millimetre of the picture below.
 const SCALE: f64 = 10.0;
@@ -99,6 +99,46 @@ fn the_displays_place_on_the_strip_gives_the_voltage_live_and_looked_back_at() {
     desk.dispatch(PlayCommand::LookBack(Some(before)));
     desk.pass(1);
     assert_ne!(now(&mut desk, before), live);
+}
+
+#[test]
+fn the_simulated_screen_bears_no_voltage_the_largest_and_the_slowest_and_fastest_carriers() {
+    let mut desk = felt(2);
+    let trace = Arc::clone(tool(&mut desk).trace().unwrap().unwrap());
+    let felt_n = |v: f64| stroke::BARE_MU * (stroke::PRESS_N + SimulatedScreen::pull_n(v));
+    let most_v = Electrovibration::MAX_V;
+    for (carrier, peak_v, n_a_period) in [
+        (Carrier::Square, most_v, 1.0),
+        (Carrier::Sine, 0.5 * most_v, 2.0),
+    ] {
+        for carrier_hz in Electrovibration::CARRIER_HZ {
+            let friction_n = |amplification_v: f64| {
+                let drive = Electrovibration {
+                    amplification_v,
+                    carrier_hz,
+                    carrier,
+                };
+                let stroke = stroke::along(&trace, &drive);
+                let is_within = |instant: &Instant| instant.driven.v.abs() <= most_v;
+                assert!(stroke.iter().all(is_within));
+                let forces = stroke.iter().map(|instant| instant.friction_n);
+                forces.collect::<Vec<f64>>()
+            };
+            let silent = friction_n(0.0);
+            assert!(silent.iter().all(|&n| n == felt_n(0.0)), "0 V");
+            // Friction of the cloth is above 0.255: all of it is cut off.
+            let loud = friction_n(Electrovibration::MAX_AMPLIFICATION_V);
+            let [least, most] = extent(loud.iter().copied());
+            assert!((least - felt_n(0.0)).abs() < 1e-6, "{least} N");
+            assert!((most / felt_n(peak_v) - 1.0).abs() < 1e-3, "{most} N");
+            // A stroke of 60 mm at 100 mm/s.
+            let middle = 0.5 * (least + most);
+            let rises = loud.windows(2).filter(|n| n[0] < middle && n[1] >= middle);
+            let expected = 0.6 * n_a_period * carrier_hz;
+            let n_rises = rises.count() as f64;
+            assert!((n_rises - expected).abs() <= 1.5, "{carrier:?}: {n_rises}");
+        }
+    }
 }
 
 #[test]

@@ -1,31 +1,14 @@
-//! Friction from a picture: how a trace is found from its spectra, and what a worse picture costs.
+//! What a worse picture, or a smaller one, costs the friction that is read from it.
 
-use super::chart::{chart, lines_by};
-use super::readable::{largest, number};
-use super::{Bench, Findings, ReportError, Row, Study};
-use selvedge_chart::Axis;
-use selvedge_foundation::numerics::{
-    Complex, Grid, GriffinLim, Random, StartPhases, Stft, n_threads, to_index, to_single,
-};
+use crate::chart::{chart, lines_by};
+use crate::{Bench, Findings, ReportError, Row, Study};
+use selvedge_chart::{Axis, Chart};
+use selvedge_foundation::numerics::{Grid, Random, n_threads, to_index, to_single};
 use selvedge_foundation::quantity::fixed;
 use selvedge_friction::{PredictedFriction, Predictor, Scores, Split, Taken};
 
-/// Samples of a frame, and from frame to frame.
-const FRAME: [usize; 2] = [512, 128];
-
-/// Griffin–Lim: from which phases and in how many rounds.
-pub(crate) const SPECTRA: Study = Study {
-    name: "griffin-lim",
-    chapter: "friction",
-    question: "From which phases, and in how many rounds, is friction found from its spectra?",
-    reference: "The magnitudes that went in.",
-    error: ("spectral error", "share of all magnitudes"),
-    cost_of: "trace of 100 mm",
-    run: spectra,
-};
-
 /// Worse pictures, and extreme ones.
-pub(crate) const PICTURES: Study = Study {
+pub(crate) const STUDY: Study = Study {
     name: "friction-pictures",
     chapter: "friction",
     question: "What does a worse picture cost the friction that is read from it?",
@@ -34,149 +17,6 @@ pub(crate) const PICTURES: Study = Study {
     cost_of: "picture of 100 mm",
     run: pictures,
 };
-
-/// How a trace is found again.
-#[derive(Debug, Clone, Copy)]
-struct Way {
-    name: &'static str,
-    /// Whether what is slow, the mean too, is taken off first and put back.
-    is_rest: bool,
-    start: fn(u64) -> StartPhases<'static>,
-    momentum: f64,
-}
-
-const WAYS: [Way; 4] = [
-    Way {
-        name: "whole, phases by chance",
-        is_rest: false,
-        start: StartPhases::Random,
-        momentum: 0.99,
-    },
-    Way {
-        name: "whole, a constant's phases",
-        is_rest: false,
-        start: StartPhases::OfConstant,
-        momentum: 0.99,
-    },
-    Way {
-        name: "without what is slow, phases by chance",
-        is_rest: true,
-        start: StartPhases::Random,
-        momentum: 0.99,
-    },
-    Way {
-        name: "the same, no overshoot",
-        is_rest: true,
-        start: StartPhases::Random,
-        momentum: 0.0,
-    },
-];
-
-fn spectra(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-    let n_seeds = bench.effort.pick(5, 20);
-    let rounds = bench
-        .effort
-        .pick(&[8, 32][..], &[1, 2, 4, 8, 16, 32, 64, 128]);
-    let taken = Taken::held_back(Split::Cloths, 1, n_threads());
-    let traces: Vec<&[f64]> = taken.pictures().map(|(.., felt)| felt).collect();
-    let [n_window, hop] = FRAME;
-    let stft = Stft::hamming(n_window, hop);
-    let mut rows = Vec::new();
-    for (nth, way) in WAYS.iter().enumerate() {
-        bench.step(nth as f64 / WAYS.len() as f64, way.name)?;
-        for &n_rounds in rounds {
-            rows.push(way.row(bench, &stft, &traces, (n_rounds, n_seeds)));
-        }
-    }
-    let lines = lines_by(
-        &rows,
-        |row| &row.method,
-        |row| Some([row.size?, row.error?]),
-    );
-    let plot = chart(
-        "Worst spectral error over seeds",
-        Axis::log("rounds"),
-        Axis::log("spectral error"),
-        lines,
-        "Traces of procedural cloth, one a family.",
-    );
-    let notes = [
-        "A mean of 0.4 makes two rows of a spectrogram a hundred times as large as all others: \
-         from phases by chance its frames take opposite signs and stay there.",
-    ];
-    Ok(Findings::new(
-        rows,
-        vec![("rounds".to_owned(), plot)],
-        notes,
-    ))
-}
-
-impl Way {
-    /// Spectral errors of what is found from a trace's magnitudes: as a share of all of them, and
-    /// of those without what is slow, which are what a finger feels.
-    fn errors(self, stft: &Stft, trace: &[f64], seed: usize, how: GriffinLim) -> [f64; 2] {
-        let magnitudes = |trace: &[f64]| stft.forward(trace).map(Complex::norm);
-        let rest = PredictedFriction::rest_of(trace);
-        let start = (self.start)(seed as u64);
-        let target = magnitudes(if self.is_rest { &rest } else { trace });
-        let mut found = stft.griffin_lim(&target, trace.len(), start, how);
-        if self.is_rest {
-            let slow = trace.iter().zip(&rest).map(|(mu, rest)| mu - rest);
-            found
-                .iter_mut()
-                .zip(slow)
-                .for_each(|(mu, slow)| *mu += slow);
-        }
-        let of_rest = magnitudes(&PredictedFriction::rest_of(&found));
-        [
-            missed(&magnitudes(&found), &magnitudes(trace)),
-            missed(&of_rest, &magnitudes(&rest)),
-        ]
-    }
-
-    /// The worst of so many seeds after so many rounds.
-    fn row(
-        self,
-        bench: &mut Bench<'_>,
-        stft: &Stft,
-        traces: &[&[f64]],
-        (n_iterations, n_seeds): (usize, usize),
-    ) -> Row {
-        let how = GriffinLim {
-            n_iterations,
-            momentum: self.momentum,
-        };
-        let n_run = if bench.wants_errors() { n_seeds } else { 1 };
-        let errors: Vec<[f64; 2]> = (0..n_run)
-            .map(|seed| self.errors(stft, traces[seed % traces.len()], seed, how))
-            .collect();
-        let worst = |nth: usize| largest(errors.iter().map(|error| error[nth]));
-        let n_within = errors.iter().filter(|[of_all, _]| *of_all <= 0.01).count();
-        Row {
-            error: Some(worst(0)),
-            cost: Some(bench.time(1, || self.errors(stft, traces[0], 0, how))),
-            size: Some(n_iterations as f64),
-            more: vec![
-                ("worst error of the rest", number(worst(1))),
-                ("seeds within 1 %", format!("{n_within} of {n_seeds}")),
-            ],
-            ..Row::of(
-                self.name,
-                format!("{n_iterations} rounds"),
-                "procedural cloth",
-            )
-        }
-    }
-}
-
-/// Root of the power of what differs, as a share of all.
-fn missed(found: &Grid<f64>, target: &Grid<f64>) -> f64 {
-    let pairs = found.values().iter().zip(target.values());
-    let (off, all) = pairs.fold((0.0, 0.0), |(off, all), (a, b)| {
-        (off + (a - b).powi(2), all + b * b)
-    });
-    (off / all).sqrt()
-}
 
 /// What is done to a picture before it is read, or to what stands for its cloth.
 #[derive(Debug, Clone, Copy)]
@@ -189,20 +29,43 @@ enum Spoilt {
     Coarser(usize),
     /// A latent that is shaken by so much of its own size.
     Latent(f64),
+    /// Cut after so many mm.
+    Shorter(u32),
 }
+
+/// What is drawn: a name, the methods in it, the axis of what was changed.
+const CURVES: [(&str, &[&str], &str); 4] = [
+    (
+        "noise",
+        &["as it is", "mean of 3 x 3"],
+        "noise, share of white",
+    ),
+    ("scale", &["coarser"], "pixels to a millimetre"),
+    ("length", &["shorter"], "length of the picture, mm"),
+    (
+        "latent",
+        &["latent shaken"],
+        "shaken by, share of the latent's size",
+    ),
+];
 
 impl Spoilt {
     fn all(bench: &Bench<'_>) -> Vec<Self> {
         let noise = bench
             .effort
             .pick(&[0.0, 0.05][..], &[0.0, 0.01, 0.02, 0.05, 0.1, 0.2]);
-        let coarser = bench.effort.pick(&[2][..], &[2, 4]);
-        let shaken = bench.effort.pick(&[0.1][..], &[0.01, 0.1, 0.3, 1.0]);
+        let coarser = bench.effort.pick(&[1, 2][..], &[1, 2, 4]);
+        let shorter = bench.effort.pick(&[40, 100][..], &[40, 60, 80, 100]);
+        let shaken = bench
+            .effort
+            .pick(&[0.0, 0.1][..], &[0.0, 0.01, 0.1, 0.3, 1.0]);
         let noisy = noise.iter().copied().map(Self::Noisy);
         let smoothed = noise.iter().copied().map(Self::Smoothed);
         let coarser = coarser.iter().copied().map(Self::Coarser);
         let latent = shaken.iter().copied().map(Self::Latent);
-        noisy.chain(smoothed).chain(coarser).chain(latent).collect()
+        let shorter = shorter.iter().copied().map(Self::Shorter);
+        let of_picture = noisy.chain(smoothed).chain(coarser).chain(shorter);
+        of_picture.chain(latent).collect()
     }
 
     fn method(self) -> &'static str {
@@ -211,6 +74,7 @@ impl Spoilt {
             Self::Smoothed(_) => "mean of 3 x 3",
             Self::Coarser(_) => "coarser",
             Self::Latent(_) => "latent shaken",
+            Self::Shorter(_) => "shorter",
         }
     }
 
@@ -219,6 +83,25 @@ impl Spoilt {
             Self::Noisy(sd) | Self::Smoothed(sd) => format!("noise {sd}"),
             Self::Coarser(_) => format!("{} px/mm", self.px_per_mm()),
             Self::Latent(share) => format!("by {share}"),
+            Self::Shorter(mm) => format!("{mm} mm"),
+        }
+    }
+
+    /// Where it stands on the axis of its curve.
+    fn place(self) -> f64 {
+        match self {
+            Self::Noisy(sd) | Self::Smoothed(sd) => sd,
+            Self::Coarser(_) => self.px_per_mm(),
+            Self::Latent(share) => share,
+            Self::Shorter(mm) => f64::from(mm),
+        }
+    }
+
+    /// Columns of a strip, and samples of what was felt, that are left.
+    fn n_left(self, n: usize) -> usize {
+        match self {
+            Self::Shorter(mm) => n.min(to_index(f64::from(mm) * PredictedFriction::PER_MM)),
+            _ => n,
         }
     }
 
@@ -247,6 +130,10 @@ impl Spoilt {
                 Grid::from_fn(size[0], size[1], |x, y| mean_of(strip, [n * x, n * y], n))
             }
             Self::Latent(_) => strip.clone(),
+            Self::Shorter(_) => {
+                let n = self.n_left(strip.width());
+                Grid::from_fn(n, strip.height(), |x, y| strip.row(y)[x])
+            }
         }
     }
 }
@@ -290,26 +177,43 @@ fn pictures(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
             let picture = spoilt.picture(strip, &mut random);
             let (scale, share) = (spoilt.px_per_mm(), spoilt.shaken());
             let found = predictor.shaken(&picture, scale, share, &mut random);
-            let scores = found?.scores(felt);
+            let scores = found?.scores(&felt[..spoilt.n_left(felt.len())]);
             distances.push(scores[Scores::LOG_SPECTRAL]);
             levels.push(scores[Scores::LEVEL]);
         }
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
         rows.push(Row {
             error: Some(mean(&distances)),
+            size: Some(spoilt.place()),
             more: vec![("level error, %", fixed(mean(&levels), 2))],
             ..Row::of(spoilt.method(), setting, "held-back cloths")
         });
     }
+    let plots = CURVES.map(|curve| (curve.0.to_owned(), drawn(&rows, curve)));
     rows.extend(extreme(bench, &predictor)?);
     rows.extend(costs(bench)?);
     let notes = [
         "The networks learnt from pictures with the noise of a camera, and of one scale.",
         "A picture without a strip of 40 mm x 10 mm is refused.",
-        "What wider networks and longer learning gain: selvedge friction train --width, --rounds, \
-         --cloths; evaluate lists such runs.",
     ];
-    Ok(Findings::new(rows, Vec::new(), notes))
+    Ok(Findings::new(rows, plots.into(), notes))
+}
+
+/// One of [`CURVES`].
+fn drawn(rows: &[Row], (_, methods, axis): (&str, &[&str], &str)) -> Chart {
+    let shown = rows.iter().filter(|row| methods.contains(&&*row.method));
+    let lines = lines_by(
+        shown,
+        |row| &row.method,
+        |row| Some([row.size?, row.error?]),
+    );
+    chart(
+        "Distance of spectra",
+        Axis::linear(axis),
+        Axis::linear("distance of spectra, mean, dB"),
+        lines,
+        "Procedural cloths that were held back; the networks that are shipped, together.",
+    )
 }
 
 /// Pictures that show next to nothing, and what an answer costs.
@@ -388,30 +292,10 @@ mod tests {
     use selvedge_foundation::progress::Progress;
 
     #[test]
-    fn phases_by_chance_fail_on_a_whole_trace_and_not_on_what_is_not_slow() {
-        let findings = Progress::unheard(|progress| {
-            (SPECTRA.run)(&mut Bench::new(Effort::Quick, 1, progress))
-        })
-        .unwrap();
-        let error = |method: &str| {
-            let is_it = |row: &&Row| row.method == method && row.size == Some(32.0);
-            findings
-                .rows
-                .iter()
-                .find(is_it)
-                .and_then(|row| row.error)
-                .unwrap()
-        };
-        assert!(error(WAYS[0].name) > 0.3, "frames lock to opposite signs");
-        assert!(error(WAYS[1].name) < 0.05 && error(WAYS[2].name) < 0.05);
-    }
-
-    #[test]
     fn noise_costs_and_extreme_pictures_give_friction() {
-        let findings = Progress::unheard(|progress| {
-            (PICTURES.run)(&mut Bench::new(Effort::Quick, 1, progress))
-        })
-        .unwrap();
+        let findings =
+            Progress::unheard(|progress| (STUDY.run)(&mut Bench::new(Effort::Quick, 1, progress)))
+                .unwrap();
         let error = |method: &str, setting: &str| {
             let is_it = |row: &&Row| row.method == method && row.setting == setting;
             findings
@@ -422,6 +306,30 @@ mod tests {
                 .unwrap()
         };
         assert!(error("as it is", "noise 0.05") > error("as it is", "noise 0"));
+        // The whole picture, not shaken, is the same three times.
+        let whole = error("as it is", "noise 0");
+        for (method, setting) in [
+            ("shorter", "100 mm"),
+            ("coarser", "12.8 px/mm"),
+            ("latent shaken", "by 0"),
+        ] {
+            assert!((error(method, setting) - whole).abs() < 1e-9, "{method}");
+        }
+        assert!(error("shorter", "40 mm") > 0.0);
+        let drawn: Vec<(&str, usize)> = findings
+            .plots
+            .iter()
+            .map(|(name, chart)| {
+                (
+                    name.as_str(),
+                    chart.series.iter().map(|s| s.points.len()).sum(),
+                )
+            })
+            .collect();
+        assert_eq!(
+            drawn,
+            [("noise", 4), ("scale", 2), ("length", 2), ("latent", 2)]
+        );
         let extreme: Vec<_> = findings
             .rows
             .iter()
