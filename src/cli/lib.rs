@@ -39,6 +39,7 @@ mod method;
 mod output;
 mod paths;
 mod picture;
+mod picture_folder;
 mod picture_relief;
 mod play;
 mod play_audio;

@@ -1,5 +1,6 @@
 //! `selvedge picture`: the lattice of a cloth's repeats, and the cell that repeats, from a picture.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -7,23 +8,25 @@ use clap::Args;
 
 use super::picture_relief::{Origin, ReliefArgs, Seen, describe_none};
 use super::terminal::{self, with_meter};
-use super::{CliError, output};
+use super::{CliError, output, picture_folder};
 use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::{fixed, with_unit};
 use selvedge_textile::n_threads;
 use selvedge_textile::picture::{
-    self, About, Analysis, AnalysisOptions, DirectionOptions, EvenLight, Found, Picture,
+    self, About, Analysis, AnalysisOptions, DirectionOptions, EvenLight, Found, Lattice, Picture,
     PictureScale, Place,
 };
 
 /// A picture, and what is known about it.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(super) struct PictureArgs {
-    /// The picture: PNG, JPEG, TIFF or BMP, 8 or 16 bits, up to 64 million pixels
-    image: PathBuf,
-    /// Folder for periodicity.json, maxima.csv and pictures of every stage
+    /// The picture: PNG, JPEG, TIFF or BMP, 8 or 16 bits, up to 64 million pixels; of a folder every
+    /// picture in it
+    pub(super) image: PathBuf,
+    /// Folder for periodicity.json, maxima.csv and pictures of every stage; of several pictures for
+    /// a folder each, and pictures.csv
     #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    pub(super) out: PathBuf,
     /// Pixels to a millimetre; without a scale lengths are given in pixels only
     #[arg(long, value_name = "P", value_parser = positive, conflicts_with = "dpi")]
     px_per_mm: Option<f64>,
@@ -109,6 +112,21 @@ fn light(text: &str) -> Result<EvenLight, String> {
 }
 
 impl PictureArgs {
+    /// Refuses what cannot go together, before anything is reckoned.
+    pub(super) fn check(&self) -> Result<(), CliError> {
+        self.relief.check(self.scale())
+    }
+
+    /// The same of one picture of a folder.
+    pub(super) fn of_folder(&self, image: &Path, name: &OsStr) -> Self {
+        Self {
+            image: image.to_owned(),
+            out: self.out.join(name),
+            relief: self.relief.of_folder(name),
+            ..self.clone()
+        }
+    }
+
     fn scale(&self) -> Option<PictureScale> {
         let of_dpi = || self.dpi.map(PictureScale::Dpi);
         let of_threads = || self.threads_per_cm.map(|n| PictureScale::ThreadsPerCm(n.0));
@@ -140,9 +158,47 @@ impl PictureArgs {
     }
 }
 
-/// Analyses the picture and writes the files.
+/// What is told of a picture.
+pub(super) struct Told {
+    pub(super) size_px: [usize; 2],
+    /// The lattice and what its cells explain, or why there is none.
+    pub(super) found: Result<(Lattice, f64), String>,
+    described: String,
+    warnings: Vec<String>,
+}
+
+impl Told {
+    fn of(analysis: &Analysis, described: String) -> Self {
+        let found = analysis.found.as_ref();
+        let found = found.map(|found| (found.lattice, found.explained_variance));
+        Self {
+            size_px: [analysis.luminance.width(), analysis.luminance.height()],
+            found: found.map_err(ToString::to_string),
+            described,
+            warnings: warnings(analysis),
+        }
+    }
+
+    /// Prints it, and what to mind of this picture.
+    pub(super) fn say(&self, image: &Path) -> Result<(), CliError> {
+        for line in &self.warnings {
+            terminal::notice(&format!("{}: {line}", image.display()));
+        }
+        output::print(&self.described)
+    }
+}
+
+/// Analyses the picture, or all of a folder, and writes the files.
 pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
-    args.relief.check(args.scale())?;
+    if args.image.is_dir() {
+        return picture_folder::run(args);
+    }
+    analysed(args)?.say(&args.image)
+}
+
+/// Analyses the picture and writes the files.
+pub(super) fn analysed(args: &PictureArgs) -> Result<Told, CliError> {
+    args.check()?;
     let bytes = selvedge_textile::read_measurement(&args.image)?;
     let loaded = Picture::load(&bytes, &args.image)?;
     let origin = Origin::of(&args.image, &bytes);
@@ -190,12 +246,9 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
         }
         None => {}
     }
-    let warnings = warnings(&analysis);
+    let told = Told::of(&analysis, described);
     write(analysis, &about, &args.out)?;
-    for line in warnings {
-        terminal::notice(&format!("{}: {line}", args.image.display()));
-    }
-    output::print(&described)
+    Ok(told)
 }
 
 fn write(analysis: Analysis, about: &About, out: &Path) -> Result<(), CliError> {

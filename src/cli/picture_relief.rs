@@ -1,5 +1,6 @@
 //! `selvedge picture`, from the cell that repeats on: heights, and a textile of them.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -23,7 +24,7 @@ use selvedge_textile::{
 };
 
 /// How heights are found on the cell, and what becomes of them.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(super) struct ReliefArgs {
     /// A further picture of the same cloth, turned by any angle in the plane under the same lamp;
     /// can be said three times. Heights, albedo and the light's tilt are then found together
@@ -128,6 +129,15 @@ impl<'a> Origin<'a> {
 }
 
 impl ReliefArgs {
+    /// The same of one picture of a folder: its textile has a folder and a name of its own.
+    pub(super) fn of_folder(&self, name: &OsStr) -> Self {
+        Self {
+            textile: self.textile.as_ref().map(|folder| folder.join(name)),
+            name: name.to_string_lossy().into_owned(),
+            ..self.clone()
+        }
+    }
+
     /// Refuses what cannot go together, before anything is reckoned.
     pub(super) fn check(&self, scale: Option<PictureScale>) -> Result<(), CliError> {
         let refuse = |line: &str| Err(CliError::Input(line.to_owned()));

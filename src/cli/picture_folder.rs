@@ -1,0 +1,127 @@
+//! `selvedge picture` of a folder: every picture in it, and a table of what was found.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+
+use super::output::{self, TableOut};
+use super::picture::{PictureArgs, Told, analysed};
+use super::{CliError, signals, terminal};
+
+/// How files of pictures end.
+const ENDS: [&str; 6] = ["png", "jpg", "jpeg", "tif", "tiff", "bmp"];
+/// The table.
+const TABLE: &str = "pictures.csv";
+const COLUMNS: [&str; 11] = [
+    "image",
+    "width_px",
+    "height_px",
+    "p1_x_px",
+    "p1_y_px",
+    "p2_x_px",
+    "p2_y_px",
+    "confidence",
+    "explained_variance",
+    "weave",
+    "reason",
+];
+
+/// Analyses every picture of a folder, each into a folder of its own. One that cannot be read is
+/// told, and in the table, and the others go on.
+pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
+    let pictures = pictures_in(&args.image)?;
+    args.check()?;
+    output::make_folder(&args.out, "name another with --out")?;
+    let stop = signals::stop_flag()?;
+    let mut table = TableOut::new(Some(&args.out.join(TABLE)), &COLUMNS)?;
+    let mut n_refused = 0_usize;
+    for path in &pictures {
+        let file = path.file_name().unwrap_or_default().to_string_lossy();
+        let one = args.of_folder(path, name_among(path, &pictures));
+        let told = match analysed(&one) {
+            Err(error) if stop.load(Ordering::Relaxed) => return Err(error),
+            told => told,
+        };
+        let row = table.rows();
+        row.text(&file);
+        match told {
+            Ok(told) => {
+                add(row, &told);
+                row.end_row()?;
+                told.say(path)?;
+            }
+            Err(error) => {
+                n_refused += 1;
+                for _ in 1..COLUMNS.len() - 1 {
+                    row.text("");
+                }
+                row.text(&error.to_string()).end_row()?;
+                terminal::notice(&error.to_string());
+            }
+        }
+    }
+    table.finish()?;
+    let (n, table) = (pictures.len(), args.out.join(TABLE));
+    let table = table.display();
+    if n_refused > 0 {
+        let line = format!("{n_refused} of {n} pictures could not be analysed: {table} says why");
+        return Err(CliError::Input(line));
+    }
+    output::print(&format!("{table}: {n} pictures\n"))
+}
+
+fn add<W: std::io::Write>(row: &mut selvedge_foundation::files::TableWriter<W>, told: &Told) {
+    for px in told.size_px {
+        row.number(px as f64);
+    }
+    match &told.found {
+        Ok((lattice, explained)) => {
+            let vectors = [lattice.p1_px, lattice.p2_px];
+            let numbers = vectors.as_flattened().iter();
+            for number in numbers.chain([&lattice.confidence, explained]) {
+                row.number(*number);
+            }
+            row.text(&lattice.weave_name().unwrap_or_default()).text("");
+        }
+        Err(reason) => {
+            for _ in 0..7 {
+                row.text("");
+            }
+            row.text(reason);
+        }
+    }
+}
+
+/// The pictures of a folder, by name.
+fn pictures_in(folder: &Path) -> Result<Vec<PathBuf>, CliError> {
+    let refused = |what: String| {
+        let folder = folder.display();
+        let mend = "name a picture, or a folder with PNG, JPEG, TIFF or BMP files";
+        CliError::Input(format!("{folder}: {what}; {mend}"))
+    };
+    let entries = fs::read_dir(folder).map_err(|error| refused(error.to_string()))?;
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let is_picture = |path: &PathBuf| {
+        let end = path.extension().and_then(OsStr::to_str).unwrap_or_default();
+        path.is_file() && ENDS.iter().any(|known| end.eq_ignore_ascii_case(known))
+    };
+    let mut pictures: Vec<PathBuf> = paths.filter(is_picture).collect();
+    pictures.sort();
+    if pictures.is_empty() {
+        return Err(refused("there is no picture in it".to_owned()));
+    }
+    Ok(pictures)
+}
+
+/// What the folder of a picture is called: its name without its end, unless another shares that.
+fn name_among<'a>(path: &'a Path, pictures: &[PathBuf]) -> &'a OsStr {
+    let stem = path.file_stem();
+    let n_alike = pictures.iter().filter(|other| other.file_stem() == stem);
+    let name = if n_alike.count() > 1 {
+        path.file_name()
+    } else {
+        stem
+    };
+    name.unwrap_or_default()
+}
