@@ -5,8 +5,8 @@ use std::path::Path;
 use super::*;
 use crate::import::to_textile;
 use crate::recipe::{HeightsFile as _, ProfileFiles, SourceKeys as _};
-use crate::sources::picture::PictureSource;
-use crate::surface::{Direction, Representation};
+use crate::sources::picture::{PictureSource, Synthesis};
+use crate::surface::{Direction, Representation, smd_um};
 use crate::{
     BuiltFile, HeightScale, Library, Manifest, PictureTextile, Source, TextileError, write,
 };
@@ -175,16 +175,25 @@ fn another_map_than_the_one_hashed_is_refused() {
 }
 
 #[test]
-fn heights_are_scaled_so_that_the_tester_reads_the_smd_asked_for() {
-    for smd_um in [2.0, 6.0, 15.0] {
-        let manifest = manifest_of(&made(HeightScale::SmdUm(smd_um)).unwrap());
-        let read = manifest.measured["smd_um"];
-        assert!(
-            (read / smd_um - 1.0).abs() < 5e-3,
-            "{read} where {smd_um} was asked"
-        );
-        assert_eq!(source(&manifest).smd_um, Some(smd_um));
-        assert!(source(&manifest).relief_um > 2.0 * smd_um);
+fn the_tester_reads_the_smd_asked_for_on_what_is_felt_synthesized_or_not() {
+    let synthesis = Synthesis {
+        size_mm: [20.0; 2],
+        cell_mm: None,
+        seed: 3,
+    };
+    for asked_um in [2.0, 6.0, 15.0] {
+        for synthesis in [None, Some(synthesis)] {
+            let about = about(HeightScale::SmdUm(asked_um));
+            let made = to_textile(&found(), &about, synthesis).unwrap();
+            let read_um = smd_um(&made.profiles);
+            assert!(
+                (read_um / asked_um - 1.0).abs() < 5e-3,
+                "{read_um} where {asked_um} was asked, {synthesis:?}"
+            );
+            let manifest = manifest_of(&made.files);
+            assert_eq!(source(&manifest).smd_um, Some(asked_um));
+            assert!(source(&manifest).relief_um > 2.0 * asked_um);
+        }
     }
     let error = made(HeightScale::SmdUm(0.01)).unwrap_err().to_string();
     assert!(error.contains("own noise"), "{error}");
