@@ -100,7 +100,7 @@ pub(super) fn run(args: &DrapeArgs) -> Result<(), CliError> {
         return Err(CliError::Input("no scene is named; give one".to_owned()));
     };
     let scene = DrapeScene::read(place)?;
-    scene.notes().iter().for_each(|note| terminal::notice(note));
+    scene.notes().for_each(|note| terminal::notice(&note));
     let mut drape = Drape::new(&scene, args.integrator, args.dt.map(|ms| 1e-3 * ms))?;
     let (integrator, why) = drape.integrator();
     let step_ms = 1e3 * drape.step_s();
@@ -124,6 +124,17 @@ pub(super) fn run(args: &DrapeArgs) -> Result<(), CliError> {
         mesh.finish()?;
         [drape.energy_j()[0], 0.0]
     };
+    let DrapeCounters {
+        overstretched,
+        steps,
+        ..
+    } = *drape.counters();
+    if overstretched > 0 {
+        terminal::notice(&format!(
+            "yarns were stretched farther than EMT in {overstretched} of {steps} steps: from there \
+             on the curve is a straight line"
+        ));
+    }
     match &args.stats {
         Some(place) => write_stats(args, place, &mut drape, energy),
         None => Ok(()),
@@ -343,7 +354,7 @@ fn test(fabric: &str) -> Result<(), CliError> {
         DrapeError::Textile(error) => CliError::Input(error.to_string()),
         other => other.into(),
     })?;
-    scene.notes().iter().for_each(|note| terminal::notice(note));
+    scene.notes().for_each(|note| terminal::notice(&note));
     let head = ["figure", "given", "found", "off %", "unit"].map(str::to_owned);
     let rows = test_fabric(&scene)?.into_iter().map(|figure| {
         let off = 100.0 * (figure.found / figure.given - 1.0);

@@ -181,6 +181,11 @@ impl Compression {
         self.linearity
     }
 
+    /// Work WC up to the tester's pressure, J/m².
+    pub(crate) fn work_j_per_m2(&self) -> f64 {
+        0.5 * self.linearity * Self::TESTER_PA * self.yield_m
+    }
+
     /// How much thinner it is under a pressure, m; never thinner than a tenth.
     pub(crate) fn thinner_m(&self, pressure_pa: f64) -> f64 {
         let (a, share) = (self.exponent, pressure_pa / Self::TESTER_PA);

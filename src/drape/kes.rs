@@ -192,8 +192,42 @@ fn odd(figures: &Figures, (emt, lt, load): ([f64; 2], [f64; 2], f64), weight: f6
     lines
 }
 
-/// Mechanical figures of a textile: those of the program, below those that its own manifest states.
-pub(crate) fn of_textile(id: &str, library: Option<&Path>) -> Result<Figures, DrapeError> {
+/// Figures of the program, which nobody measured: their keys, and the class that they are of.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct Plausible {
+    class: String,
+    keys: Vec<String>,
+}
+
+impl Plausible {
+    /// Those that are left where some are stated.
+    pub(crate) fn without(mut self, stated: &Figures) -> Self {
+        let is_left = |key: &String| {
+            let (symbol, suffix) = parts(key);
+            along(stated, symbol, suffix).is_none()
+        };
+        self.keys.retain(is_left);
+        self
+    }
+
+    /// What is to be told of them.
+    pub(crate) fn line(&self) -> Option<String> {
+        let (n, class) = (self.keys.len(), &self.class);
+        (n > 0).then(|| format!("{n} of its figures are plausible ones of {class}, not measured"))
+    }
+}
+
+/// Symbol and unit of a key: `emt` and `_percent`.
+pub(crate) fn parts(key: &str) -> (&str, &str) {
+    key.split_at(key.find('_').unwrap_or(key.len()))
+}
+
+/// Mechanical figures of a textile: those of the program, below those that its own manifest states;
+/// and which are of the program.
+pub(crate) fn of_textile(
+    id: &str,
+    library: Option<&Path>,
+) -> Result<(Figures, Plausible), DrapeError> {
     let own = Library::named_or_shipped(library, None)?
         .manifest(id)?
         .measured;
@@ -201,14 +235,19 @@ pub(crate) fn of_textile(id: &str, library: Option<&Path>) -> Result<Figures, Dr
     let mut known: BTreeMap<String, FabricKeys> = files::keys_from_str(FABRICS, path)?;
     let known = known.remove(id).unwrap_or_default();
     let own = own.into_iter().filter(|(key, _)| is_known(key));
-    Ok(known.figures.into_iter().chain(own).collect())
+    let own: Figures = own.collect();
+    let plausible = Plausible {
+        class: known.class,
+        keys: known.figures.keys().cloned().collect(),
+    };
+    let figures = known.figures.into_iter().chain(own.clone());
+    Ok((figures.collect(), plausible.without(&own)))
 }
 
 /// An entry of the figures of the program.
 #[derive(Default, Deserialize)]
 struct FabricKeys {
-    #[serde(default, rename = "class")]
-    #[expect(dead_code, reason = "for those who read the file")]
+    #[serde(default)]
     class: String,
     #[serde(flatten)]
     figures: Figures,

@@ -9,6 +9,10 @@ use super::{DrapeError, DrapeScene};
 
 /// The key of friction between finger and cloth, which no tester measures.
 const FRICTION: &str = "friction";
+/// Widths of the loop of shear, 2HG and 2HG5, and the energy of compression.
+const NARROW: &str = "2hg_gf_per_cm";
+const WIDE: &str = "2hg5_gf_per_cm";
+const WC: &str = "wc_gf_cm_per_cm2";
 
 impl DrapeScene {
     /// A figure by its key in `[measured]`, the mean of warp and weft, or `friction`.
@@ -16,37 +20,60 @@ impl DrapeScene {
         match key {
             FRICTION => Some(self.fabric.friction),
             "t0_mm" => Some(1e3 * self.fabric.compression.thickness_m),
+            "lc" => Some(self.fabric.compression.linearity()),
+            WC => Some(self.fabric.compression.work_j_per_m2() / kes::N_PER_M),
+            WIDE => of_key(&self.figures, key).or_else(|| of_key(&self.figures, NARROW)),
+            "rt_percent" => of_key(&self.figures, key).or(Some(100.0)),
             _ => of_key(&self.figures, key),
         }
     }
 
-    /// The same with other figures. Those of warp and weft keep their ratio, and 2HG5 that to 2HG.
+    /// Whether a figure changes anything: losses do where the scene has hysteresis; LT goes before
+    /// WT, from which it follows where it is not known.
+    pub fn uses(&self, key: &str) -> bool {
+        let (symbol, _) = kes::parts(key);
+        let has_lt = || of_key(&self.figures, "lt").is_some();
+        match symbol {
+            "2hg" | "2hg5" | "2hb" | "rt" => self.losses.has_hysteresis,
+            "lt" => has_lt(),
+            "wt" => !has_lt(),
+            _ => true,
+        }
+    }
+
+    /// The same with other figures. Those of warp and weft keep their ratio, and 2HG5 that to 2HG
+    /// unless it is given, too.
     ///
     /// # Errors
     /// A figure is out of its range.
     pub fn with_figures(&self, changes: &[(&str, f64)]) -> Result<Self, DrapeError> {
         let (mut figures, mut friction) = (self.figures.clone(), self.fabric.friction);
-        for &(key, value) in changes {
+        // 2HG first: it takes 2HG5 along, which may be changed after that.
+        let (first, others): (Vec<_>, Vec<_>) = changes.iter().partition(|(key, _)| *key == NARROW);
+        for (key, value) in first.into_iter().chain(others) {
             match key {
                 FRICTION => friction = value,
-                "2hg_gf_per_cm" => {
-                    set(
-                        &mut figures,
-                        "2hg5_gf_per_cm",
-                        value,
-                        of_key(&self.figures, key),
-                    );
-                    set(&mut figures, key, value, of_key(&self.figures, key));
+                NARROW => {
+                    let before = of_key(&figures, key);
+                    set(&mut figures, WIDE, value, before);
+                    set(&mut figures, key, value, before);
                 }
-                _ => set(&mut figures, key, value, of_key(&self.figures, key)),
+                _ => {
+                    let before = of_key(&figures, key);
+                    set(&mut figures, key, value, before);
+                }
             }
         }
         DrapeError::within((FRICTION, friction, ""), [0.0, 10.0])?;
         let mut scene = self.with_laws(figures, friction)?;
-        let is_of_tension = |key: &str| matches!(parts(key).0, "emt" | "lt" | "wt" | "rt");
+        let is_of_tension = |key: &str| matches!(kes::parts(key).0, "emt" | "lt" | "wt");
         if !changes.iter().any(|(key, _)| is_of_tension(key)) {
             scene.fabric.tension = self.fabric.tension;
         }
+        let changed = changes
+            .iter()
+            .map(|(key, value)| ((*key).to_owned(), *value));
+        scene.plausible = scene.plausible.without(&changed.collect());
         Ok(scene)
     }
 
@@ -63,7 +90,9 @@ impl DrapeScene {
     /// # Errors
     /// A textile that is unknown, or whose figures are.
     pub fn of_other_textile(&self, id: &str, library: Option<&Path>) -> Result<Self, DrapeError> {
-        let mut scene = self.with_laws(kes::of_textile(id, library)?, self.fabric.friction)?;
+        let (figures, plausible) = kes::of_textile(id, library)?;
+        let mut scene = self.with_laws(figures, self.fabric.friction)?;
+        scene.plausible = plausible;
         (scene.textile, scene.back) = (Some(id.to_owned()), None);
         scene.library_folder = library.map(Path::to_owned);
         Ok(scene)
@@ -110,19 +139,14 @@ impl Drape {
     }
 }
 
-/// Symbol and unit of a key: `emt` and `_percent`.
-fn parts(key: &str) -> (&str, &str) {
-    key.split_at(key.find('_').unwrap_or(key.len()))
-}
-
 fn of_key(figures: &Figures, key: &str) -> Option<f64> {
-    let (symbol, suffix) = parts(key);
+    let (symbol, suffix) = kes::parts(key);
     kes::mean(figures, symbol, suffix)
 }
 
 /// Brings a figure from its mean before to another, or scales one by that of another key.
 fn set(figures: &mut Figures, key: &str, value: f64, before: Option<f64>) {
-    let (symbol, suffix) = parts(key);
+    let (symbol, suffix) = kes::parts(key);
     let sides = ["", "_warp", "_weft"].map(|side| format!("{symbol}{side}{suffix}"));
     let is_known = sides.iter().any(|key| figures.contains_key(key));
     if let Some(before) = before.filter(|before| is_known && *before > 0.0) {
@@ -172,6 +196,44 @@ mod tests {
         let silk = scene.of_other_textile("silk-crepe", None).unwrap();
         assert_eq!(silk.size_mm(), scene.size_mm());
         assert!(silk.fabric().density_kg_per_m2 < 0.1);
+    }
+
+    #[test]
+    fn losses_and_compression_are_changed_by_their_own_figures() {
+        let scene = shipped();
+        for changes in [[(WIDE, 9.0), (NARROW, 3.0)], [(NARROW, 3.0), (WIDE, 9.0)]] {
+            let other = scene.with_figures(&changes).unwrap();
+            let found = [NARROW, WIDE].map(|key| other.figure(key).unwrap());
+            let off = [0, 1].map(|nth| (found[nth] - [3.0, 9.0][nth]).abs());
+            assert!(off[0].max(off[1]) < 1e-12, "{changes:?}: {found:?}");
+        }
+        let loose = scene.with_figures(&[("rt_percent", 20.0)]).unwrap();
+        let [old, new] = [&scene, &loose].map(|scene| scene.fabric().tension_friction_n_per_m[0]);
+        let left = scene.figure("rt_percent").unwrap();
+        assert!(
+            (new / old - 80.0 / (100.0 - left)).abs() < 1e-9,
+            "{old} {new}"
+        );
+        let before = scene.figure(WC).unwrap();
+        let soft = scene.with_figures(&[(WC, 2.0 * before)]).unwrap();
+        let [old, new] = [&scene, &soft].map(|scene| scene.fabric().compression.yield_m);
+        assert!((new / old - 2.0).abs() < 1e-9, "{old} {new}");
+        assert!((soft.figure(WC).unwrap() / before - 2.0).abs() < 1e-9);
+        // What does nothing is known to: losses without hysteresis, WT beside LT.
+        let plain = DrapeScene::of_textile("denim").unwrap();
+        let idle = [
+            NARROW,
+            WIDE,
+            "2hb_gf_cm_per_cm",
+            "rt_percent",
+            "wt_gf_cm_per_cm2",
+        ];
+        assert!(idle.iter().all(|key| !plain.uses(key)));
+        assert!(["lt", "lc", WC, NARROW].iter().all(|key| scene.uses(key)));
+        let n_plausible = |scene: &DrapeScene| scene.notes().last().unwrap();
+        let [all, fewer] = [&scene, &loose].map(n_plausible);
+        let number = |line: &str| line.split(' ').next().unwrap().parse::<u32>().unwrap();
+        assert_eq!(number(&all), number(&fewer) + 1, "{all} {fewer}");
     }
 
     #[test]

@@ -9,7 +9,7 @@ use super::cloth::{Cloth, Stepping};
 use super::fabric::Fabric;
 use super::finger::Finger;
 use super::integrator::Integrator;
-use super::kes::{self, Figures};
+use super::kes::{self, Figures, Plausible};
 use super::mesh::{Mesh, Pins, Vector};
 use super::sheet::{Losses, Sheet};
 use super::system::System;
@@ -35,15 +35,16 @@ pub struct DrapeScene {
     size_mm: [f64; 2],
     pub(crate) grid: Option<[usize; 2]>,
     pins: Pins,
-    losses: Losses,
+    pub(crate) losses: Losses,
     /// How it is stepped if nobody says otherwise.
     integrator: Integrator,
     pub(crate) step_ms: Option<f64>,
     /// What its laws were made from.
     pub(crate) figures: Figures,
     pub(crate) fabric: Fabric,
-    /// What is to be told of its figures.
+    /// What is odd about its figures.
     pub(crate) notes: Vec<String>,
+    pub(crate) plausible: Plausible,
     pub(crate) fingers: Vec<FingerSpec>,
 }
 
@@ -139,18 +140,20 @@ impl DrapeScene {
         let beside = path.parent().unwrap_or_else(|| Path::new(""));
         let library = keys.library.as_ref();
         let library = library.map(|name| Library::place(name, beside));
-        let figures = match &keys.textile {
+        let (figures, plausible) = match &keys.textile {
             Some(id) => kes::of_textile(id, library.as_deref())
                 .map_err(|error| wrong(placed(("", 0, "textile"), &error)))?,
-            None => Figures::new(),
+            None => (Figures::new(), Plausible::default()),
         };
         let curves = keys.tension.as_ref();
         let curves = curves
             .map(|name| kes::tension_curves(&beside.join(name)))
             .transpose()?;
         let (tension, of_curves) = curves.unzip();
-        let figures = figures.into_iter().chain(of_curves.unwrap_or_default());
-        let figures = figures.chain(keys.measured.clone()).collect();
+        let stated = of_curves.unwrap_or_default().into_iter();
+        let stated: Figures = stated.chain(keys.measured.clone()).collect();
+        let plausible = plausible.without(&stated);
+        let figures = figures.into_iter().chain(stated).collect();
         let (mut fabric, notes) = Fabric::of_figures(&figures)
             .map_err(|error| wrong(placed(("measured", 0, ""), &error)))?;
         fabric.tension = tension.unwrap_or(fabric.tension);
@@ -161,7 +164,7 @@ impl DrapeScene {
         }
         let mut scene = Self::from_keys(keys, &fabric).map_err(wrong)?;
         scene.figures = figures;
-        scene.notes = notes;
+        (scene.notes, scene.plausible) = (notes, plausible);
         scene.library_folder = library;
         // What makes no grid is told where it stands.
         scene
@@ -175,12 +178,13 @@ impl DrapeScene {
     /// # Errors
     /// A textile that is unknown, or whose figures are.
     pub fn of_textile(id: &str) -> Result<Self, DrapeError> {
-        let figures = kes::of_textile(id, None)?;
+        let (figures, plausible) = kes::of_textile(id, None)?;
         let (fabric, notes) = Fabric::of_figures(&figures)?;
         Ok(Self {
             textile: Some(id.to_owned()),
             figures,
             notes,
+            plausible,
             ..Self::plain(id.to_owned(), &fabric)
         })
     }
@@ -201,6 +205,7 @@ impl DrapeScene {
             figures: Figures::new(),
             fabric: *fabric,
             notes: Vec::new(),
+            plausible: Plausible::default(),
             fingers: Vec::new(),
         }
     }
@@ -280,9 +285,9 @@ impl DrapeScene {
         self.size_mm
     }
 
-    /// What is odd about its figures: a line each.
-    pub fn notes(&self) -> &[String] {
-        &self.notes
+    /// What is odd about its figures, and how many of them nobody measured: a line each.
+    pub fn notes(&self) -> impl Iterator<Item = String> + '_ {
+        self.notes.iter().cloned().chain(self.plausible.line())
     }
 
     /// Whether anything holds it, so that it comes to rest.

@@ -301,8 +301,7 @@ fn compress(cloth: &Compression, found: &mut Vec<TestedFigure>) {
     let most = curve.last().map_or(0.0, |last| last[0]);
     let work = area(&curve, most);
     let linearity = work / (0.5 * Compression::TESTER_PA * most);
-    let given_wc = 0.5 * cloth.linearity() * Compression::TESTER_PA * cloth.yield_m;
-    let wc = [given_wc, work].map(|j| j / kes::N_PER_M);
+    let wc = [cloth.work_j_per_m2(), work].map(|j| j / kes::N_PER_M);
     found.push(figure("LC", "", [cloth.linearity(), linearity]));
     found.push(figure("WC", "gf·cm/cm²", wc));
     found.push(figure("T0 − TM", "mm", [1e3 * cloth.yield_m, 1e3 * most]));

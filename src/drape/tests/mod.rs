@@ -7,7 +7,6 @@ mod fingers;
 mod local;
 mod motion;
 mod scene;
-mod speed;
 
 use crate::cloth::{Cloth, EXACT, Stepping};
 use crate::fabric::{Fabric, Tension};

@@ -11,7 +11,9 @@ use selvedge_textile::Library;
 fn every_shipped_textile_has_figures_that_fit() {
     for id in Library::shipped().unwrap().ids() {
         let scene = DrapeScene::of_textile(id).unwrap();
-        assert_eq!(scene.notes(), &[] as &[String], "{id}");
+        let notes: Vec<String> = scene.notes().collect();
+        let plausible = |note: &String| note.contains(" of its figures are plausible ones of ");
+        assert!(notes.len() == 1 && plausible(&notes[0]), "{id}: {notes:?}");
     }
 }
 

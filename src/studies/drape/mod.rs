@@ -1,7 +1,9 @@
 //! A hanging cloth: how exactly each way of stepping it answers, at what cost, and what it holds.
 
+mod drift;
 mod integrators;
 mod orders;
+mod speed;
 mod stability;
 #[cfg(test)]
 mod tests;
@@ -26,6 +28,8 @@ pub(crate) struct Sample {
     /// Stiffness of its yarns if they are straight springs, N/m; else they are a shirting's.
     pub(crate) stiffness_n_per_m: Option<f64>,
     n_fingers: usize,
+    /// Air drags it, and it has hysteresis.
+    is_lossy: bool,
 }
 
 impl Sample {
@@ -35,6 +39,7 @@ impl Sample {
         density_kg_per_m2: 0.2,
         stiffness_n_per_m: None,
         n_fingers: 0,
+        is_lossy: false,
     };
 
     /// The cloth, stepped so; without fingers it lies flat at an angle, else it hangs.
@@ -56,7 +61,9 @@ impl Sample {
         &self,
         (integrator, step_s): (Integrator, Option<f64>),
     ) -> Result<DrapeScene, ReportError> {
-        let Self { n, pins, .. } = self;
+        let Self {
+            n, pins, is_lossy, ..
+        } = self;
         let weight = 100.0 * self.density_kg_per_m2;
         // A straight line of 5 % at whatever load makes this stiffness; 1 gf/cm is 0.980665 N/m.
         let tension = self.stiffness_n_per_m.map_or_else(
@@ -72,9 +79,11 @@ impl Sample {
         let step = step_s.map_or_else(String::new, |s| format!("step_ms = {:e}\n", 1e3 * s));
         let mut text = format!(
             "name = \"Studied\"\nsize_mm = [200.0, 200.0]\ngrid = [{n}, {n}]\npins = \"{pins}\"\n\
-             air = false\nintegrator = \"{integrator}\"\n{step}[measured]\n\
+             air = {is_lossy}\nhysteresis = {is_lossy}\nintegrator = \"{integrator}\"\n{step}[measured]\n\
              weight_mg_per_cm2 = {weight:e}\nemt_percent = 5.0\n\
-             {tension}\ng_gf_per_cm_deg = 0.5\nb_gf_cm2_per_cm = 0.1\nt0_mm = 0.5\n"
+             {tension}\ng_gf_per_cm_deg = 0.5\nb_gf_cm2_per_cm = 0.1\nt0_mm = 0.5\n\
+             rt_percent = 60.0\n2hg_gf_per_cm = 0.8\n2hg5_gf_per_cm = 1.6\n\
+             2hb_gf_cm_per_cm = 0.03\n"
         );
         let finger = |side: &&str| {
             format!(

@@ -1,7 +1,7 @@
 //! What every integrator holds, by stiffness, weight, step and what is done: all of it comes out
 //! finite and without more energy than was given, or is refused with the limit.
 
-use super::{Sample, left_j, pinch};
+use super::{Sample, drift, left_j, pinch};
 use crate::chart::chart;
 use crate::{Bench, Findings, ReportError, Row, Study};
 use selvedge_chart::{Axis, Chart, Ink, Series, Style};
@@ -20,7 +20,7 @@ pub(crate) const STABILITY: Study = Study {
 
 /// What may come from nowhere, as part of weight times length, of what was there and of what
 /// hands had put in.
-const MOST_GAINED: f64 = 0.01;
+pub(super) const MOST_GAINED: f64 = 0.01;
 /// How far pads come to be past each other where the pulp of both yields and the cloth holds, mm:
 /// without it they would be 20 mm.
 const MOST_PASSED_MM: f64 = 16.0;
@@ -145,6 +145,16 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
                 };
                 let (row, standing) = case((deed, sample, 80.0), way, ms)?;
                 counts[standing as usize] += 1;
+                // Losses on one weight only: what they could break is the same.
+                if way.1 && rho >= densities[densities.len() - 1] {
+                    let lossy = Sample {
+                        is_lossy: true,
+                        ..sample
+                    };
+                    let (row, standing) = case((deed, lossy, 80.0), way, ms)?;
+                    counts[standing as usize] += 1;
+                    rows.push(row);
+                }
                 if deed == Deed::Swing && rho <= densities[0] {
                     map.push((standing, [ms, k]));
                 }
@@ -152,6 +162,8 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
             }
         }
     }
+    bench.step(1.0, "drift")?;
+    rows.extend(drift::rows(bench.effort)?);
     let n_lost = rows.iter().filter(|row| row.error.is_none()).count();
     let counted = Standing::ALL.map(|one| format!("{} {}", counts[one as usize], one.word()));
     let note = format!(
@@ -206,7 +218,12 @@ fn case(
         sample.stiffness_n_per_m.unwrap_or_default(),
         sample.density_kg_per_m2,
     ];
-    let what = format!("{}, K {k:e} N/m, {rho} kg/m²", deed.name());
+    let losses = if sample.is_lossy {
+        ", air and hysteresis"
+    } else {
+        ""
+    };
+    let what = format!("{}, K {k:e} N/m, {rho} kg/m²{losses}", deed.name());
     let row = Row::of(integrator.name(), format!("{step_ms} ms"), what);
     let stepped = (integrator, Some(1e-3 * step_ms));
     let mut drape = deed.start(sample).drape(tilt_deg, stepped)?;

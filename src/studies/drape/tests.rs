@@ -31,6 +31,23 @@ fn bdf2_comes_nearest_at_a_given_step_and_a_sleeping_cloth_costs_next_to_nothing
         let mut rows = rows.filter(|row| row.setting == "4.17 ms" && row.case.contains(k));
         rows.next().unwrap().further_number("iterations").unwrap()
     };
+    // Every row of the numbers that are asked for.
+    let with = |column: &str| {
+        let rows = findings.rows.iter();
+        rows.filter(|row| row.further_number(column).is_some_and(|n| n > 0.0))
+            .map(|row| row.method.as_str())
+            .collect::<Vec<&str>>()
+    };
+    let parts = ["gradient", "product", "line", "making line", "XPBD substep"];
+    assert_eq!(with("ns_a_vertex"), parts);
+    assert_eq!(with("us_a_newton_step"), ["contact"]);
+    assert_eq!(with("p99_ms"), ["bdf2"; 3]);
+    assert!(
+        of("contact", "a part", "two")
+            .further_number("points")
+            .unwrap()
+            > 10.0
+    );
     for k in ["K 1e1 N", "K 1e4 N"] {
         let [diagonal, line] = PRECONDITIONERS.map(|name| of_k(name, k));
         assert!(5.0 < line && line < diagonal, "{k}: {diagonal} {line}");
@@ -52,7 +69,23 @@ fn every_case_is_held_or_refused() {
     let findings = quick(&STABILITY, 1);
     let broken: Vec<&Row> = findings.broken().collect();
     assert!(broken.is_empty(), "{broken:#?}");
-    assert_eq!(findings.rows.len(), 7 * 5 * 3 * 2 * 3);
+    let n_lossy = 7 * 3 * 3 * 3;
+    let n_of_drift = 7 * 2;
+    assert_eq!(
+        findings.rows.len(),
+        7 * 5 * 3 * 2 * 3 + n_lossy + n_of_drift
+    );
+    let lossy = |row: &&Row| row.case.contains("air and hysteresis");
+    assert_eq!(findings.rows.iter().filter(lossy).count(), n_lossy + 7);
+    let left = |method: &str, losses: &str| {
+        let is_it = |row: &&Row| row.method == method && row.case.ends_with(losses);
+        let row = findings.rows.iter().rev().find(is_it).unwrap();
+        row.further_number("energy_since_start_percent").unwrap()
+    };
+    for method in ["explicit", "bdf2"] {
+        let [bare, lossy] = ["bare", "hysteresis"].map(|losses| left(method, losses));
+        assert!(lossy < bare && bare < 0.0, "{method}: {bare} {lossy}");
+    }
     assert_eq!(findings.plots.len(), 5);
     let refused = findings
         .rows

@@ -29,8 +29,12 @@ type Dial = (
     &'static str,
 );
 
+/// Why losses are grey.
+pub(crate) const LOSSLESS: &str =
+    "Losses do nothing: the scene has no hysteresis (hysteresis = true in its file)";
+
 /// All of them, in the order of the testers.
-const DIALS: [Dial; 9] = [
+const DIALS: [Dial; 14] = [
     (
         ("emt_percent", "Stretch EMT"),
         ([0.5, 50.0], 1, "%", Some(2.0)),
@@ -42,6 +46,16 @@ const DIALS: [Dial; 9] = [
         "1: force grows evenly with strain; below, soft at first",
     ),
     (
+        ("wt_gf_cm_per_cm2", "Work WT"),
+        ([0.5, 50.0], 1, "gf cm/cm²", Some(2.0)),
+        "Energy of stretching up to 500 gf/cm: LT follows from it",
+    ),
+    (
+        ("rt_percent", "Loss RT"),
+        ([20.0, 100.0], 0, "%", None),
+        "What of the energy of stretching comes back: the rest is lost between yarns",
+    ),
+    (
         ("g_gf_per_cm_deg", "Shear G"),
         ([0.02, 10.0], 2, "gf/cm°", Some(2.7)),
         "Shear stiffness: low lets the cloth fall in folds across its yarns",
@@ -50,6 +64,11 @@ const DIALS: [Dial; 9] = [
         ("2hg_gf_per_cm", "Loss 2HG"),
         ([0.0, 20.0], 2, "gf/cm", Some(3.0)),
         "Width of the loop of shear at 0.5°: what yarns lose by rubbing",
+    ),
+    (
+        ("2hg5_gf_per_cm", "Loss 2HG5"),
+        ([0.0, 20.0], 2, "gf/cm", Some(3.0)),
+        "The same at 5°: it goes with 2HG until it is changed by itself",
     ),
     (
         ("b_gf_cm2_per_cm", "Bending B"),
@@ -72,6 +91,16 @@ const DIALS: [Dial; 9] = [
         "Thickness without pressure",
     ),
     (
+        ("lc", "Linearity LC"),
+        ([0.1, 1.2], 2, "", None),
+        "1: pressed, it yields evenly; below, soft at first",
+    ),
+    (
+        ("wc_gf_cm_per_cm2", "Work WC"),
+        ([0.0, 2.0], 2, "gf cm/cm²", Some(2.5)),
+        "Energy of pressing it up to 50 gf/cm²: how thick its cushion under the finger is",
+    ),
+    (
         ("friction", "Friction"),
         ([0.0, 1.5], 2, "", None),
         "Of a finger on the cloth: what it holds before it slips",
@@ -85,7 +114,8 @@ pub(crate) fn show(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext
     ui.add_space(STEP);
     show_figures(ui, draping);
     ui.add_space(STEP);
-    show_hand(ui, draping);
+    let has_second = context.bench.document.scene().displays.len() > 1;
+    show_hand(ui, draping, has_second);
     ui.add_space(STEP);
     show_through(ui, &mut draping.through.is_on, context.bench);
     ui.add_space(STEP);
@@ -112,9 +142,10 @@ fn show_cloths(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext<'_>
         note(ui, why, Tone::Wrong);
     }
     if let Some(facts) = draping.motion.facts.cloths.get(draping.look.cloth) {
-        for words in facts.scene.notes().iter().chain(&facts.silent) {
-            note(ui, words, Tone::Quiet);
+        for words in facts.scene.notes().chain(facts.silent.clone()) {
+            note(ui, &words, Tone::Quiet);
         }
+        note(ui, &facts.stepping, Tone::Quiet);
     }
 }
 
@@ -211,7 +242,21 @@ fn show_figures(ui: &mut Ui, draping: &mut Draping) {
     step_title(ui, 2, "Figures", &facts.title);
     let choice = &mut draping.chosen.cloths[at];
     for dial in &DIALS {
-        show_dial(ui, dial, facts, choice);
+        let ((key, _), ..) = *dial;
+        let is_used = facts.scene.uses(key);
+        // Of LT and WT one follows from the other.
+        if is_used || !matches!(key, "lt" | "wt_gf_cm_per_cm2") {
+            ui.add_enabled_ui(is_used, |ui| show_dial(ui, dial, facts, choice));
+        }
+    }
+    if !facts.scene.uses("2hb_gf_cm_per_cm") {
+        note(ui, LOSSLESS, Tone::Quiet);
+    }
+    let frame = draping.motion.frame_at(draping.look.looked_at_s);
+    let frame = frame.and_then(|frame| frame.cloths.get(at));
+    if let Some(n) = frame.map(|frame| frame.n_overstretched).filter(|n| *n > 0) {
+        let words = format!("Stretched beyond EMT in {n} steps: a straight line from there on");
+        note(ui, &words, Tone::Wrong);
     }
     row(ui, "", |ui| {
         let why = choice.changes.is_empty().then_some("Nothing was changed");
@@ -225,7 +270,9 @@ fn show_dial(ui: &mut Ui, dial: &Dial, facts: &ClothFacts, choice: &mut ClothCho
     let &((key, name), (ends, digits, unit, decades), tip) = dial;
     let resting = facts.unchanged.figure(key).unwrap_or(0.0);
     let changed = choice.changes.iter().position(|(known, _)| *known == key);
-    let now = changed.map_or(resting, |at| choice.changes[at].1);
+    // What goes with another figure stands where that has brought it.
+    let taken_along = facts.scene.figure(key).unwrap_or(resting);
+    let now = changed.map_or(taken_along, |at| choice.changes[at].1);
     let even = Scale::even(ends, resting, 0.01, (digits, unit));
     let scale = match decades {
         Some(decades) => Scale {
@@ -252,10 +299,15 @@ fn show_dial(ui: &mut Ui, dial: &Dial, facts: &ClothFacts, choice: &mut ClothCho
     }
 }
 
-fn show_hand(ui: &mut Ui, draping: &mut Draping) {
+fn show_hand(ui: &mut Ui, draping: &mut Draping, has_second: bool) {
     step_title(ui, 3, "Hand", "press to close");
-    row(ui, "Second finger", |ui| {
+    row(ui, "Second", |ui| {
         let kinds = [
+            (
+                Second::Device,
+                "device",
+                "Behind, where the scene’s second display is: a second finger of its own",
+            ),
             (
                 Second::Recorded,
                 "recorded",
@@ -276,6 +328,11 @@ fn show_hand(ui: &mut Ui, draping: &mut Draping) {
     });
     if draping.chosen.second == Second::Recorded && draping.hands.path.is_none() {
         let words = "No path yet: record a hand or open one below the cloth";
+        note(ui, words, Tone::Wrong);
+    }
+    if draping.chosen.second == Second::Device && !has_second {
+        let words =
+            "The scene has one display: a second one (Scene, Display) has a finger of its own";
         note(ui, words, Tone::Wrong);
     }
     if let Some(grasp) = &mut draping.hands.grasp {
@@ -302,11 +359,14 @@ fn show_hand(ui: &mut Ui, draping: &mut Draping) {
             *value = new.unwrap_or(*value);
         }
     }
-    let frame = draping.motion.frame_at(draping.look.looked_at_s);
-    show_felt(
-        ui,
-        frame.and_then(|frame| frame.cloths.get(draping.look.cloth)),
-    );
+    let (motion, at) = (&draping.motion, draping.look.cloth);
+    let frame = motion.frame_at(draping.look.looked_at_s);
+    let has_touch = motion
+        .facts
+        .cloths
+        .get(at)
+        .is_none_or(|facts| facts.has_touch);
+    show_felt(ui, frame.and_then(|frame| frame.cloths.get(at)), has_touch);
 }
 
 fn show_look(ui: &mut Ui, draping: &mut Draping) {

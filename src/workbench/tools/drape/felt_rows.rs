@@ -9,6 +9,10 @@ use crate::tools::drape::hung::ClothFrame;
 use crate::tools::drape::through::ThroughDevice;
 use selvedge_foundation::quantity::fixed;
 
+/// Why there are no forces.
+pub(crate) const UNTOUCHED: &str =
+    "No forces: by XPBD and projective dynamics fingers touch nothing";
+
 /// Whether the device feels the cloth in place of the scene.
 pub(crate) fn show_through(ui: &mut Ui, is_on: &mut bool, bench: &Bench) {
     let refusal = ThroughDevice::refusal(bench);
@@ -33,8 +37,12 @@ pub(crate) fn show_through(ui: &mut Ui, is_on: &mut bool, bench: &Bench) {
     }
 }
 
-/// What each finger feels of a cloth, in numbers.
-pub(crate) fn show_felt(ui: &mut Ui, cloth: Option<&ClothFrame>) {
+/// What each finger feels of a cloth, in numbers; none where fingers touch nothing.
+pub(crate) fn show_felt(ui: &mut Ui, cloth: Option<&ClothFrame>, has_touch: bool) {
+    let cloth = cloth.filter(|_| has_touch);
+    if !has_touch {
+        note(ui, UNTOUCHED, Tone::Quiet);
+    }
     let felt = |nth: usize| cloth.and_then(|cloth| cloth.fingers.get(nth));
     for (nth, names) in [["press 1", "slip 1"], ["press 2", "slip 2"]]
         .into_iter()

@@ -58,8 +58,13 @@ impl Hands {
         }
     }
 
-    /// What leads now.
-    pub(crate) fn lead(&mut self, motion: &Motion, second: Second, ctx: &egui::Context) -> Lead {
+    /// What leads now; the second finger may be one of the device's, at a place of the cloth, mm.
+    pub(crate) fn lead(
+        &mut self,
+        motion: &Motion,
+        (second, device_mm): (Second, Option<[f64; 2]>),
+        ctx: &egui::Context,
+    ) -> Lead {
         let now_s = ctx.input(|input| input.time);
         let before_s = self.led_at_s.replace(now_s).unwrap_or(now_s);
         if let Some(path) = self.path.as_ref().filter(|_| self.is_replaying) {
@@ -78,6 +83,9 @@ impl Hands {
             path.at(looped(path, frame.t_s), &mut recorded);
             hands.truncate(1);
             hands.extend(recorded.into_iter().skip(1));
+        }
+        if let (Some([x_mm, y_mm]), Some(hand)) = (device_mm, hands.get_mut(1)) {
+            hand.centre_mm = [x_mm, y_mm, hand.centre_mm[2]];
         }
         Lead::Towards(hands)
     }

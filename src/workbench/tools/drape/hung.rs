@@ -57,6 +57,8 @@ pub(crate) enum Second {
     Beside,
     /// On the other side, along the recorded path.
     Recorded,
+    /// On the other side, where the scene's second display is: a finger of its own.
+    Device,
 }
 
 /// What was chosen: every change is a step that can be taken back.
@@ -126,6 +128,8 @@ pub(crate) struct ClothFacts {
     pub(crate) key: Option<String>,
     /// How it is stepped: method, step, why.
     pub(crate) stepping: String,
+    /// Whether fingers touch it: else no force is told.
+    pub(crate) has_touch: bool,
     /// Why its contactors are silent, if it has no surface.
     pub(crate) silent: Option<String>,
 }
@@ -150,6 +154,8 @@ pub(crate) struct ClothFrame {
     pub(crate) places_mm: Vec<[f32; 3]>,
     pub(crate) pads: Vec<Pad>,
     pub(crate) fingers: Vec<FingerRow>,
+    /// Steps in which a yarn was stretched beyond what was measured.
+    pub(crate) n_overstretched: u64,
     /// What each contactor of each finger is given, µm; `None` where it touches nothing.
     pub(crate) amplitudes_um: Vec<[Option<[f64; 2]>; 24]>,
 }

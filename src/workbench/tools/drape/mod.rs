@@ -39,7 +39,7 @@ use crate::bench::tool::{PaneContext, Tool};
 use crate::kit::pane::framed;
 use crate::tools::drape::chart::Seconds;
 use crate::tools::drape::hand::Hands;
-use crate::tools::drape::hung::{Base, Chosen, ClothChoice, OtherTextile};
+use crate::tools::drape::hung::{Base, Chosen, ClothChoice, OtherTextile, Second};
 use crate::tools::drape::look::Look;
 use crate::tools::drape::motion::Motion;
 use crate::tools::drape::through::ThroughDevice;
@@ -91,7 +91,7 @@ impl Draping {
     }
 
     /// Lets the scene go on: to be called while the pane is in sight.
-    fn follow(&mut self, bench: &Bench) {
+    fn follow(&mut self, bench: &mut Bench) {
         if *self.wanted != self.chosen {
             self.wanted = Arc::new(self.chosen.clone());
         }
@@ -100,11 +100,23 @@ impl Draping {
         if self.look.looked_at_s.is_some() {
             return;
         }
-        let lead = self
-            .hands
-            .lead(&self.motion, self.chosen.second, &bench.ctx);
+        let second = (self.chosen.second, self.device_mm(bench));
+        let lead = self.hands.lead(&self.motion, second, &bench.ctx);
         self.motion.follow(bench, &self.wanted, lead);
         self.take_answers();
+    }
+
+    /// Where the second display is on the cloth, mm, if the second finger goes with it: cloth and
+    /// workspace have one middle.
+    fn device_mm(&self, bench: &mut Bench) -> Option<[f64; 2]> {
+        if self.chosen.second != Second::Device {
+            return None;
+        }
+        let middle_mm = bench.document.scene().size_mm.map(|mm| 0.5 * mm);
+        let cloth_mm = self.motion.facts.cloths.first()?.scene.size_mm();
+        let at = bench.engine.snapshot().displays.get(1)?.pose.position;
+        let off_mm = [at.x_mm - middle_mm[0], at.y_mm - middle_mm[1]];
+        Some([0, 1].map(|axis| 0.5 * cloth_mm[axis] + off_mm[axis]))
     }
 
     /// Hangs what a session presents, and afterwards what hung before.

@@ -211,6 +211,7 @@ impl Rig {
             title: title.unwrap_or_else(|| scene.name().to_owned()),
             key: key.or_else(|| scene.textile().map(str::to_owned)),
             stepping: stepping(&drape),
+            has_touch: drape.has_touch(),
             scene,
             unchanged,
             silent,
@@ -230,6 +231,7 @@ impl Rig {
         let scene = self.facts.unchanged.with_figures(&choice.changes)?;
         self.drape.refit(&scene)?;
         self.facts.stepping = stepping(&self.drape);
+        self.facts.has_touch = self.drape.has_touch();
         self.facts.scene = scene;
         self.choice = choice.clone();
         self.rest = None;
@@ -288,6 +290,7 @@ impl Rig {
             places_mm: places.map(|place| place.map(to_single)).collect(),
             fingers: (0..pads.len()).map(|nth| self.drape.finger(nth)).collect(),
             pads,
+            n_overstretched: self.drape.counters().overstretched,
             amplitudes_um: self.amplitudes_um.clone(),
         }
     }

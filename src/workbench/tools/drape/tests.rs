@@ -1,5 +1,7 @@
 //! The hanging cloth in a window without a screen: time is simulated, and every press is one.
 
+mod told;
+
 use std::path::Path;
 
 use eframe::egui::{Event, Id, Key, Modifiers, PointerButton, Pos2, Rect};
