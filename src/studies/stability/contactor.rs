@@ -18,7 +18,7 @@ pub(super) fn cases() -> Vec<Case> {
         "contact stiffness 0 … 1e9 N/m, steps 1 µs … 1 s" =>
             "finite, and nothing grows", every_stiffness;
         "full drive against skin of 1e9 N/m, pressed in 1 and 0 µm" =>
-            "finite and bounded; off at times where nothing presses", lifts_off;
+            "finite and bounded; off at times, not always, where nothing presses", lifts_off;
         "skin of NaN, −1, ∞ and 1e10 N/m" => "refused, with the range", no_skin;
         "a bimorph of 0 mm" => "refused, with the range", || {
             let bimorph = Bimorph {
@@ -75,9 +75,9 @@ fn every_stiffness() -> Verdict {
 }
 
 fn lifts_off() -> Verdict {
-    let (mut most_um, mut lost) = (0.0_f64, Vec::new());
+    let (mut most_um, mut shares) = (0.0_f64, Vec::new());
     // Pressed in a little, and only just touched: without a preload the skin is off whenever the
-    // pin moves away from it.
+    // pin moves away from it, and on when it comes back.
     for preload_um in [1.0, 0.0] {
         let skin = Skin {
             preload_um: Some(preload_um),
@@ -85,28 +85,27 @@ fn lifts_off() -> Verdict {
         };
         let model = loaded(skin, ContactorModel::MAX_QUALITY);
         let mut plant = ActuatorModel::new(&model, LOUDEST.len()).map_err(failed)?;
-        let mut most_lost = 0.0_f64;
+        let (mut lost, mut n) = (0.0, 0.0);
         for _ in 0..20 {
             for one in &plant.tick(&LOUDEST, 60.0).contactors {
                 if !(one.peak_um.is_finite() && one.current_rms_ma.is_finite()) {
                     return Err(format!("not finite: {one:?}"));
                 }
                 most_um = most_um.max(one.peak_um);
-                most_lost = most_lost.max(one.lost_share);
+                lost += one.lost_share;
+                n += 1.0;
             }
         }
-        lost.push(most_lost);
+        shares.push(lost / n);
     }
-    let opens = lost[1] > 0.0;
-    let shares: Vec<String> = lost
-        .iter()
-        .map(|share| format!("{:.0}", 100.0 * share))
-        .collect();
+    let opens_and_closes = shares[1] > 0.0 && shares[1] < 1.0;
+    let percent = shares.iter().map(|share| format!("{:.0}", 100.0 * share));
+    let percent: Vec<String> = percent.collect();
     let came_back = format!(
-        "at most {most_um:.0} µm; off for {} % of a tick",
-        shares.join(" and ")
+        "at most {most_um:.0} µm; off for {} % of the time",
+        percent.join(" and ")
     );
-    verdict(opens && most_um < TOO_FAR_UM, came_back)
+    verdict(opens_and_closes && most_um < TOO_FAR_UM, came_back)
 }
 
 fn no_skin() -> Verdict {
