@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::output::OutFile;
 use super::picture_relief::{Origin, ReliefArgs, Seen, describe_none};
 use super::terminal::{self, with_meter};
 use super::{CliError, output};
@@ -23,7 +24,7 @@ pub(super) struct PictureArgs {
     image: PathBuf,
     /// Folder for periodicity.json, maxima.csv and pictures of every stage
     #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    out: OutFile,
     /// Pixels to a millimetre; without a scale lengths are given in pixels only
     #[arg(long, value_name = "P", value_parser = positive, conflicts_with = "dpi")]
     px_per_mm: Option<f64>,
