@@ -191,7 +191,8 @@ pub(super) fn looks(series: &[Series], inks: &Inks) -> Vec<Look> {
             }
             let look = Look {
                 colour: inks.colours[n_plain % inks.colours.len()],
-                dot: dots[n_plain % dots.len()],
+                // Another dot where the colours begin again.
+                dot: dots[(n_plain + n_plain / inks.colours.len()) % dots.len()],
                 weight,
             };
             n_plain += 1;
