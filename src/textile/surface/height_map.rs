@@ -339,6 +339,13 @@ mod tests {
         let nothing = Grid::filled(4, 4, f64::NAN);
         let refused = HeightMap::new(nothing, [0.1, 0.1]).unwrap_err();
         assert_eq!(refused, SurfaceError::AllMissing);
+        let mut spiked = Grid::filled(4, 4, 0.0);
+        spiked.row_mut(2)[1] = -1e20;
+        let refused = HeightMap::new(spiked, [0.1, 0.1]).unwrap_err().to_string();
+        assert!(
+            refused.starts_with("row 3 of 4: the height is -1e20 µm"),
+            "{refused}"
+        );
         for step_mm in [0.0, -1.0, f64::NAN, 0.6] {
             assert!(HeightMap::new(Grid::filled(4, 4, 0.0), [0.1, step_mm]).is_err());
         }
