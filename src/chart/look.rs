@@ -43,9 +43,13 @@ pub(super) struct Inks {
     letters: [&'static str; 2],
     /// Violet and rose.
     others: [&'static str; 2],
-    /// Blue, vermilion, bluish green, reddish purple, and that of texts.
-    colours: [&'static str; 5],
+    /// Blue, vermilion, bluish green, reddish purple, and that of texts; then indigo, olive, wine,
+    /// brown, slate, leaf green and teal, for charts of many series.
+    colours: [&'static str; N_COLOURS],
 }
+
+/// Series of their own colour; further ones differ by their dots alone.
+const N_COLOURS: usize = 12;
 
 const WHITE: Inks = Inks {
     ground: "#ffffff",
@@ -55,7 +59,10 @@ const WHITE: Inks = Inks {
     edge: "#9a9a9a",
     letters: ["#8f5a00", "#0b6a9e"],
     others: ["#6a4fc4", "#b8326e"],
-    colours: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", INK],
+    colours: [
+        "#0072b2", "#d55e00", "#009e73", "#cc79a7", INK, "#332288", "#999933", "#882255",
+        "#6b3e1d", "#5d7c8a", "#5a8f00", "#007f8c",
+    ],
 };
 
 const ON_LIGHT: Inks = Inks {
@@ -72,7 +79,10 @@ const ON_DARK: Inks = Inks {
     edge: "#4a525c",
     letters: [AMBER, CYAN],
     others: ["#a08cff", "#ff7fb4"],
-    colours: ["#4a9fe0", "#e8743b", "#2cb58a", "#d68fb6", "#e7eaee"],
+    colours: [
+        "#4a9fe0", "#e8743b", "#2cb58a", "#d68fb6", "#e7eaee", "#7d8cf0", "#c2c25a", "#d0608e",
+        "#b98b66", "#93b0bd", "#93c742", "#5fd0c0",
+    ],
 };
 
 impl Paper {
@@ -181,7 +191,8 @@ pub(super) fn looks(series: &[Series], inks: &Inks) -> Vec<Look> {
             }
             let look = Look {
                 colour: inks.colours[n_plain % inks.colours.len()],
-                dot: dots[n_plain % dots.len()],
+                // Another dot where the colours begin again.
+                dot: dots[(n_plain + n_plain / inks.colours.len()) % dots.len()],
                 weight,
             };
             n_plain += 1;
@@ -233,6 +244,20 @@ mod tests {
         for index in [0, 3, 4, 5, 6, 7] {
             let colour = looks[index].colour;
             assert!(colour != AMBER && colour != CYAN, "{}", names[index]);
+        }
+    }
+
+    #[test]
+    fn a_dozen_series_have_colours_of_their_own() {
+        let series: Vec<Series> = (0..N_COLOURS).map(|n| named(&format!("m{n}"))).collect();
+        for inks in [&WHITE, &ON_LIGHT, &ON_DARK] {
+            let looks = looks(&series, inks);
+            for (index, look) in looks.iter().enumerate() {
+                let is_known = looks[..index]
+                    .iter()
+                    .any(|other| other.colour == look.colour);
+                assert!(!is_known, "{index}: {look:?}");
+            }
         }
     }
 

@@ -9,6 +9,7 @@ use super::bridge_faults::FaultArgs;
 use super::bridge_show::{PlantArgs, PlantView};
 use super::certify::{self, CertifyArgs, TestArgs};
 use super::identify::{self, IdentifyArgs};
+use super::output::{Cell, JsonArgs, OutFile};
 use super::replay::{self, ReplayArgs};
 use super::{CliError, array, output, terminal};
 use selvedge_device::{ArrayProfile, PortEntry, UDEV_RULE};
@@ -20,8 +21,10 @@ pub(super) enum BridgeCommand {
     /// List the serial ports, and the sound cards where the program is built with audio
     List {
         /// Print the udev rule that lets everybody at this machine use the array
-        #[arg(long)]
+        #[arg(long, conflicts_with = "json")]
         udev_rule: bool,
+        #[command(flatten)]
+        how: JsonArgs,
     },
     /// Test a connected device: handshake, pings, a second of faint frames, STOP
     Test(TestArgs),
@@ -34,7 +37,7 @@ pub(super) enum BridgeCommand {
     Kit {
         /// A new folder
         #[arg(long, value_name = "DIR")]
-        out: PathBuf,
+        out: OutFile,
     },
     /// Find which channel drives which contactor, one at a time, and write an array profile
     Identify(IdentifyArgs),
@@ -50,7 +53,7 @@ pub(super) struct EmulateArgs {
     link: PathBuf,
     /// Every frame applied, every change of state and every injected fault, as CSV
     #[arg(long, value_name = "L.csv")]
-    log: Option<PathBuf>,
+    log: Option<OutFile>,
     #[arg(long, value_name = "ARRAY", default_value = "exeter-24", help = array::HELP,
           value_parser = array::profile)]
     array: Box<ArrayProfile>,
@@ -65,8 +68,13 @@ pub(super) struct EmulateArgs {
 /// Does it.
 pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
     match command {
-        BridgeCommand::List { udev_rule: true } => output::print(UDEV_RULE),
-        BridgeCommand::List { udev_rule: false } => list(),
+        BridgeCommand::List {
+            udev_rule: true, ..
+        } => output::print(UDEV_RULE),
+        BridgeCommand::List {
+            udev_rule: false,
+            how,
+        } => list(how),
         BridgeCommand::Kit { out } => super::bridge_kit::run(out),
         BridgeCommand::Test(args) => certify::test(args),
         BridgeCommand::Certify(args) => certify::certify(args),
@@ -76,7 +84,7 @@ pub(super) fn run(command: &BridgeCommand) -> Result<(), CliError> {
     }
 }
 
-fn list() -> Result<(), CliError> {
+fn list(how: &JsonArgs) -> Result<(), CliError> {
     let ports = PortEntry::list()?;
     if ports.is_empty() {
         terminal::notice(
@@ -84,18 +92,26 @@ fn list() -> Result<(), CliError> {
         );
     }
     let widest = ports.iter().map(|port| port.path.len()).max().unwrap_or(0);
-    let line = |port: &PortEntry| format!("{:widest$}  {}\n", port.path, port.description);
-    let mut text: String = ports.iter().map(line).collect();
+    let port = |port: &PortEntry| ["serial", &port.path, &port.description].map(Cell::text);
+    let mut rows: Vec<_> = ports.iter().map(port).collect();
     match AudioOutput::list() {
-        Ok(cards) => text.extend(cards.iter().map(card_line)),
+        Ok(cards) => rows.extend(cards.iter().map(card)),
         Err(AudioError::Absent) => {}
         Err(error) => terminal::notice(&error.to_string()),
     }
-    output::print(&text)
+    let columns = ["kind", "name", "description"];
+    output::print_rows(how, columns, &rows, |[kind, name, description]| match kind
+        .to_string()
+        .as_str()
+    {
+        "audio" => format!("audio: {name}, {description}\n"),
+        _ => format!("{name:widest$}  {description}\n"),
+    })
 }
 
-fn card_line(AudioEntry { name, n_channels }: &AudioEntry) -> String {
-    format!("audio: {name}, {n_channels} channels\n")
+fn card(AudioEntry { name, n_channels }: &AudioEntry) -> [Cell; 3] {
+    let channels = format!("{n_channels} channels");
+    ["audio", name, &channels].map(Cell::text)
 }
 
 #[cfg(unix)]

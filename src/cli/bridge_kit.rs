@@ -6,7 +6,6 @@ use std::fs;
 use std::path::Path;
 
 use super::{CliError, output};
-use selvedge_foundation::files::write_atomic;
 
 /// Path within the kit, and text.
 type KitFile = (&'static str, &'static str);
@@ -58,17 +57,14 @@ pub(super) fn run(out: &Path) -> Result<(), CliError> {
             "cannot write to {place}: {error}; check the folder"
         ))
     };
-    fs::create_dir_all(out).map_err(wrong)?;
-    if fs::read_dir(out).map_err(wrong)?.next().is_some() {
+    if out.exists() && fs::read_dir(out).map_err(wrong)?.next().is_some() {
         return Err(CliError::Input(format!(
             "{place} is not empty; name a new folder for the kit"
         )));
     }
-    for (path, text) in SHIPPED.iter().chain(LICENCES) {
-        let path = out.join(path);
-        fs::create_dir_all(path.parent().unwrap_or(out)).map_err(wrong)?;
-        write_atomic(&path, text.as_bytes())?;
-    }
+    let files = SHIPPED.iter().chain(LICENCES);
+    let files: Vec<(&str, &[u8])> = files.map(|(path, text)| (*path, text.as_bytes())).collect();
+    output::write_folder(out, &files).map_err(|error| CliError::Input(error.to_string()))?;
     let n_files = SHIPPED.len() + LICENCES.len();
     output::print(&format!(
         "{n_files} files in {place}; begin with protocol.md and firmware/README.md\n"

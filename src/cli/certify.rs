@@ -6,6 +6,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use clap::Args;
 
+use super::output::OutFile;
 use super::record::{self, RecordArgs};
 use super::{CliError, array, output, play, signals, terminal};
 use selvedge_device::{
@@ -19,7 +20,7 @@ pub(super) struct CertifyArgs {
     line: LineArgs,
     /// Folder of the report: certificate-UID-FIRMWARE.md and .json
     #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    out: OutFile,
 }
 
 /// What to test.

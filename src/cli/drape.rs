@@ -1,6 +1,6 @@
 //! `selvedge drape`: a hanging cloth under two fingers, step by step; and its testers.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -8,6 +8,7 @@ use clap::{Args, Subcommand};
 use serde::Serialize;
 
 use super::output::{self, TableOut};
+use super::output::{InFile, OutFile};
 use super::render_out::{AMPLITUDE_COLUMNS, write_amplitudes};
 use super::terminal::{self, Meter};
 use super::{CliError, signals};
@@ -36,19 +37,19 @@ const LAST_STEP_SLACK: f64 = 1e-6;
 pub(super) struct DrapeArgs {
     /// Scene file of a hanging cloth
     #[arg(required = true)]
-    scene: Option<PathBuf>,
+    scene: Option<InFile>,
     #[arg(long, value_name = "FINGERS.csv", help = PATH_HELP)]
-    path: Option<PathBuf>,
+    path: Option<InFile>,
     /// Forces on the fingers, a row a step or, if that is shorter, a millisecond; without --path
     /// the shape at rest (standard output if no file is asked for)
     #[arg(long, value_name = "F.csv")]
-    out: Option<PathBuf>,
+    out: Option<OutFile>,
     /// Where every vertex is, forty times a second
     #[arg(long, value_name = "M.csv")]
-    mesh: Option<PathBuf>,
+    mesh: Option<OutFile>,
     /// Amplitudes of the contactors on both pads, a row a contactor a tick; places are the cloth's
     #[arg(long, value_name = "A.csv", requires = "path")]
-    amplitudes: Option<PathBuf>,
+    amplitudes: Option<OutFile>,
     /// How to step: explicit, ie, bdf2, xpbd, pd or auto (the scene's)
     #[arg(long, value_name = "METHOD")]
     integrator: Option<Integrator>,
@@ -57,7 +58,7 @@ pub(super) struct DrapeArgs {
     dt: Option<f64>,
     /// Steps, iterations, energy and what was left out, as JSON
     #[arg(long, value_name = "S.json")]
-    stats: Option<PathBuf>,
+    stats: Option<OutFile>,
     #[command(subcommand)]
     command: Option<DrapeCommand>,
 }

@@ -1,10 +1,11 @@
 //! `selvedge figure`: an exploration of a scene, a recording or sessions of an experiment on one
 //! page, with a caption.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::Args;
 
+use super::output::{InFile, OutPage};
 use super::terminal::with_meter;
 use super::{CliError, output};
 use selvedge_experiment::ExperimentError;
@@ -16,14 +17,14 @@ use selvedge_workbench::{FigureFiles, FigureOf, build_cache, exploration_figure}
 pub(super) struct FigureArgs {
     /// Scene file, a recording's folder, or the log of a session (or a folder of such logs)
     #[arg(value_name = "SCENE|RECORDING|LOG")]
-    what: PathBuf,
+    what: InFile,
     /// The exploration of a scene: a recording's folder or a path file (the scene's first recording
     /// if none is given)
     #[arg(long, value_name = "PATH")]
-    path: Option<PathBuf>,
+    path: Option<InFile>,
     /// The page without its ending: NAME.svg, NAME.png and the caption NAME.txt are written
     #[arg(long, value_name = "NAME")]
-    out: PathBuf,
+    out: OutPage,
     /// The contactor whose spectrum is drawn, from 0 (the one that vibrated most)
     #[arg(long, value_name = "N")]
     contactor: Option<usize>,
@@ -40,26 +41,34 @@ pub(super) fn run(args: &FigureArgs) -> Result<(), CliError> {
         of_sessions(args)?
     } else {
         let of = FigureOf {
-            scene: (!is_recording).then(|| args.what.clone()),
-            exploration: is_recording
-                .then(|| args.what.clone())
-                .or_else(|| args.path.clone()),
+            scene: (!is_recording).then(|| args.what.to_path_buf()),
+            exploration: if is_recording {
+                Some(args.what.to_path_buf())
+            } else {
+                args.path.as_deref().map(Path::to_path_buf)
+            },
             contactor: args.contactor,
         };
         exploration_figure(&of, build_cache().as_ref())?
     };
-    let parts = [
-        ("svg", files.svg.as_slice()),
-        ("png", files.png.as_slice()),
-        ("txt", files.caption.as_bytes()),
-    ];
-    for (ending, bytes) in parts {
-        let mut name = args.out.clone().into_os_string();
-        name.push(".");
-        name.push(ending);
-        output::write_bytes(&PathBuf::from(name), bytes)?;
+    let parts = [&*files.svg, &*files.png, files.caption.as_bytes()];
+    let paths = args.out.files();
+    let name = |path: &Path| {
+        path.file_name()
+            .and_then(|name| name.to_str())
+            .map(str::to_owned)
+    };
+    let names = paths.each_ref().map(|path| name(path).unwrap_or_default());
+    let parent = args.out.parent().filter(|at| !at.as_os_str().is_empty());
+    let folder = parent.unwrap_or_else(|| Path::new("."));
+    if !folder.is_dir() || names.iter().any(String::is_empty) {
+        let place = paths[0].display();
+        return Err(CliError::Input(format!(
+            "cannot write {place}; check the folder and the name"
+        )));
     }
-    Ok(())
+    let named: Vec<(&str, &[u8])> = names.iter().map(String::as_str).zip(parts).collect();
+    output::write_folder(folder, &named)
 }
 
 /// What a session's answers come to, or those of a folder of sessions.
@@ -77,7 +86,7 @@ fn of_sessions(args: &FigureArgs) -> Result<FigureFiles, CliError> {
     let is_folder = args.what.is_dir();
     let parent = args.what.parent().filter(|at| !at.as_os_str().is_empty());
     let beside = parent.unwrap_or_else(|| Path::new("."));
-    let folder = if is_folder { &args.what } else { beside };
+    let folder: &Path = if is_folder { &args.what } else { beside };
     let options = Options {
         cache: build_cache(),
         ..Options::default()

@@ -12,6 +12,7 @@ use std::thread;
 
 use clap::Args;
 
+use super::output::OutFile;
 use super::record::{self, RecordArgs};
 use super::{CliError, array, output, play, signals, terminal};
 use selvedge_device::wiring::{Answer, WiringWalk};
@@ -40,7 +41,7 @@ pub(super) struct IdentifyArgs {
     baud: array::BaudArgs,
     /// The profile with the wiring that was found
     #[arg(long, value_name = "PROFILE.toml")]
-    out: PathBuf,
+    out: OutFile,
     /// Answers, one a line, instead of asking on the terminal
     #[arg(long, value_name = "FILE")]
     answers: Option<PathBuf>,

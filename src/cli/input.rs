@@ -2,6 +2,7 @@
 
 use clap::Subcommand;
 
+use super::output::{Cell, JsonArgs};
 use super::{CliError, output, terminal};
 use selvedge_engine::{AxisRange, EngineError, InputDevice};
 use selvedge_foundation::quantity::fixed;
@@ -10,46 +11,57 @@ use selvedge_foundation::quantity::fixed;
 #[derive(Debug, Subcommand)]
 pub(super) enum InputCommand {
     /// List the tablets and touch frames of this machine
-    List,
+    List {
+        #[command(flatten)]
+        how: JsonArgs,
+    },
 }
 
 /// Does it.
 pub(super) fn run(command: &InputCommand) -> Result<(), CliError> {
     match command {
-        InputCommand::List => list(),
+        InputCommand::List { how } => list(how),
     }
 }
 
-fn list() -> Result<(), CliError> {
+fn list(how: &JsonArgs) -> Result<(), CliError> {
     let devices = InputDevice::list().map_err(EngineError::from)?;
     if devices.is_empty() {
         terminal::notice(
             "no tablet or touch frame; connect one, or try the mouse in the workbench",
         );
     }
-    let mut text = String::new();
+    let mut rows = Vec::new();
     for device in devices {
         match device {
-            Ok(device) => text.push_str(&line(&device)),
+            Ok(device) => rows.push(row(&device)),
             Err(error) => terminal::notice(&error.to_string()),
         }
     }
-    output::print(&text)
+    output::print_rows(how, COLUMNS, &rows, line)
 }
 
-fn line(device: &InputDevice) -> String {
-    let size = match device.axes.map(|axis: AxisRange| axis.length_mm()) {
-        [Some(width_mm), Some(height_mm)] => {
-            format!("{} × {} mm", fixed(width_mm, 1), fixed(height_mm, 1))
+const COLUMNS: [&str; 5] = ["device", "name", "width_mm", "height_mm", "contact"];
+
+fn row(device: &InputDevice) -> [Cell; 5] {
+    let [width_mm, height_mm] = device.axes.map(|axis: AxisRange| axis.length_mm());
+    [
+        Cell::text(format!("evdev:{}", device.path.display())),
+        Cell::text(&device.name),
+        Cell::Number(width_mm),
+        Cell::Number(height_mm),
+        Cell::text(device.contact),
+    ]
+}
+
+fn line([device, name, width, height, contact]: &[Cell; 5]) -> String {
+    let size = match (width, height) {
+        (Cell::Number(Some(width_mm)), Cell::Number(Some(height_mm))) => {
+            format!("{} × {} mm", fixed(*width_mm, 1), fixed(*height_mm, 1))
         }
         _ => "size unknown".to_owned(),
     };
-    format!(
-        "evdev:{}  {}, {size}, contact: {}\n",
-        device.path.display(),
-        device.name,
-        device.contact
-    )
+    format!("{device}  {name}, {size}, contact: {contact}\n")
 }
 
 #[cfg(test)]
@@ -70,10 +82,10 @@ mod tests {
             contact: "touch",
         };
         assert_eq!(
-            line(&device),
+            line(&row(&device)),
             "evdev:/dev/input/event7  Pen tablet, 216.0 × 216.0 mm, contact: touch\n"
         );
         device.axes[1].per_mm = 0;
-        assert!(line(&device).contains("size unknown"));
+        assert!(line(&row(&device)).contains("size unknown"));
     }
 }

@@ -100,6 +100,9 @@ struct Cli {
     /// What the operator decides: PIN, port, width of the screen (stage.toml among the settings)
     #[arg(long, value_name = "TOML", requires = "stage")]
     operator: Option<PathBuf>,
+    /// No notices and no progress on stderr: errors alone
+    #[arg(long, short, global = true)]
+    quiet: bool,
     #[command(subcommand)]
     command: Option<Command>,
 }
@@ -160,7 +163,9 @@ fn command() -> clap::Command {
 
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {
-    let args: Vec<OsString> = std::env::args_os().collect();
+    let mut args: Vec<OsString> = std::env::args_os().collect();
+    usage::switch_behind_command(&mut args);
+    signals::leave_nothing_behind();
     let mut command = command();
     let words = args.get(1..).unwrap_or_default();
     if let Some(line) = usage::unknown_command(words, &command) {
@@ -188,6 +193,9 @@ pub fn main() -> ExitCode {
 }
 
 fn run(cli: Cli) -> Result<(), CliError> {
+    if cli.quiet {
+        terminal::be_quiet();
+    }
     match cli.command {
         None if cli.stage => stage::open(cli.scene.as_deref(), cli.operator.as_deref()),
         None if cli.from_desktop => workbench::open_from_desktop(cli.scene.as_deref()),

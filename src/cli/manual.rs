@@ -1,12 +1,11 @@
 //! `selvedge completions` and `selvedge man`: what shells and manuals know of the commands, made
 //! from the very declaration that parses them.
 
-use std::path::PathBuf;
-
 use clap::{Args, Command};
 use clap_complete::Shell;
 use clap_mangen::Man;
 
+use super::output::OutFile;
 use super::{CliError, command, output, terminal};
 
 /// Which shell.
@@ -21,7 +20,7 @@ pub(super) struct CompletionsArgs {
 pub(super) struct ManArgs {
     /// The folder to write into, made where it is missing
     #[arg(value_name = "DIR")]
-    out: PathBuf,
+    out: OutFile,
 }
 
 /// Prints the completions of a shell.
@@ -38,9 +37,11 @@ pub(super) fn write_pages(args: &ManArgs) -> Result<(), CliError> {
     whole.build();
     let mut pages = Vec::new();
     render(&whole, &mut pages)?;
-    for (name, page) in &pages {
-        output::write_bytes(&args.out.join(name), page)?;
-    }
+    let named: Vec<(&str, &[u8])> = pages
+        .iter()
+        .map(|(name, page)| (&**name, &**page))
+        .collect();
+    output::write_folder(&args.out, &named)?;
     let (n_pages, out) = (pages.len(), args.out.display());
     terminal::notice(&format!(
         "{n_pages} pages are in {out}; read one by man -l {out}/selvedge.1"

@@ -1,11 +1,12 @@
 //! `selvedge mds`: maps from a table of dissimilarities.
 
 use std::ops::RangeInclusive;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::Args;
 
 use super::mds_json::{Chance, Document};
+use super::output::{InFile, OutFile};
 use super::terminal::with_meter;
 use super::usage::one_of;
 use super::{CliError, output};
@@ -25,7 +26,7 @@ const STARTS_OF_CHANCE: usize = 100;
 pub(super) struct MdsArgs {
     /// Square table or a triangle of it, with or without names; an empty cell is missing; `-` is
     /// standard input
-    dissimilarities: PathBuf,
+    dissimilarities: InFile,
     /// Numbers of dimensions: 2, or 1-5
     #[arg(long, value_name = "K-K", value_parser = dimensions, default_value = "1-5")]
     dims: Dimensions,
@@ -46,7 +47,7 @@ pub(super) struct MdsArgs {
     seed: u64,
     /// File for the maps; `-` is standard output
     #[arg(long, value_name = "OUT")]
-    json: Option<PathBuf>,
+    json: Option<OutFile>,
     /// Take the mean where the two sides of a pair differ, instead of refusing the table
     #[arg(long)]
     average: bool,
@@ -118,7 +119,8 @@ impl MdsArgs {
 
 /// Makes the maps, and writes them.
 pub(super) fn run(args: &MdsArgs) -> Result<(), CliError> {
-    let (text, path) = output::read_text(&args.dissimilarities)?;
+    let path: &Path = &args.dissimilarities;
+    let text = files::read_text(path)?;
     let table = SquareTable::read(&text, path)?;
     let data = checked(&table, path, args.average)?;
     let mds = args.mds();

@@ -4,27 +4,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use clap::{ArgMatches, Command};
+use clap::{Arg, ArgMatches, Command};
 
 use super::CliError;
-use super::output::named_file;
-
-/// Options that name a file to be written, in every command that has them.
-const RESULTS: [&str; 13] = [
-    "out",
-    "wav",
-    "hjif",
-    "frames",
-    "stats",
-    "log",
-    "session_log",
-    "mesh",
-    "amplitudes",
-    "json",
-    "spectrogram",
-    "answers",
-    "bids",
-];
+use super::output::{InFile, OutFile, OutPage, named_file};
 
 /// A path of the command line, and what it is called there.
 type Named = (String, PathBuf);
@@ -39,21 +22,32 @@ pub(super) fn check(command: &Command, matches: &ArgMatches) -> Result<(), CliEr
     let (mut results, mut sources): (Vec<Named>, Vec<Named>) = (Vec::new(), Vec::new());
     for arg in command.get_arguments() {
         let id = arg.get_id().as_str();
-        let Ok(Some(paths)) = matches.try_get_many::<PathBuf>(id) else {
-            continue;
+        let called = || {
+            arg.get_long()
+                .map_or_else(|| id.to_uppercase(), |long| format!("--{long}"))
         };
-        let called = arg
-            .get_long()
-            .map_or_else(|| id.to_uppercase(), |long| format!("--{long}"));
-        let is_result = !arg.is_positional() && RESULTS.contains(&id);
-        let named = if is_result {
-            &mut results
-        } else {
-            &mut sources
-        };
-        named.extend(paths.map(|path| (called.clone(), path.clone())));
+        let named = |path: &Path| (called(), path.to_owned());
+        if let Ok(Some(files)) = matches.try_get_many::<OutFile>(id) {
+            results.extend(files.map(|file| named(file)));
+        } else if let Ok(Some(pages)) = matches.try_get_many::<OutPage>(id) {
+            results.extend(pages.flat_map(OutPage::files).map(|file| named(&file)));
+        } else if let Ok(Some(files)) = matches.try_get_many::<InFile>(id) {
+            sources.extend(files.map(|file| named(file.place())));
+        } else if let Ok(Some(paths)) = matches.try_get_many::<PathBuf>(id) {
+            sources.extend(paths.map(|path| named(path)));
+        } else if is_perhaps_a_file(arg)
+            && let Ok(Some(words)) = matches.try_get_many::<String>(id)
+        {
+            sources.extend(words.map(|word| named(Path::new(word))));
+        }
     }
     twice(&results, &sources).map_or(Ok(()), |line| Err(CliError::Input(line)))
+}
+
+/// Whether a word may be a file's name, or that of something else.
+fn is_perhaps_a_file(arg: &Arg) -> bool {
+    let names = arg.get_value_names().unwrap_or_default();
+    names.iter().any(|name| name.contains("FILE"))
 }
 
 /// What is wrong with the files named, one line.
@@ -146,6 +140,52 @@ mod tests {
             said(&[named("--out", &*folder)], &[named("LOGS", &*folder)]),
             ""
         );
+    }
+
+    /// What is refused of a line, as the program parses it.
+    fn refused(line: &str) -> Option<String> {
+        let command = crate::command();
+        let matches = command.clone().try_get_matches_from(line.split(' '));
+        check(&command, &matches.unwrap())
+            .err()
+            .map(|error| error.to_string())
+    }
+
+    #[test]
+    fn results_are_known_by_what_they_are_declared_as() {
+        let folder = ScratchFolder::made("declared");
+        for name in ["p.csv", "page.txt", "heights.csv"] {
+            fs::write(folder.join(name), "").unwrap();
+        }
+        let at = folder.display();
+        for (line, what) in [
+            (
+                "selvedge render a.toml --path AT/p.csv --band AT/p.csv,AT/h.csv",
+                "--band would",
+            ),
+            (
+                "selvedge render a.toml --path AT/p.csv --band AT/x,AT/x",
+                "--band and --band are",
+            ),
+            (
+                "selvedge figure a.toml --path AT/page.txt --out AT/page",
+                "--out would overwrite",
+            ),
+            (
+                "selvedge probe --surface AT/heights.csv --drop 1 --out AT/heights.csv",
+                "which --surface reads",
+            ),
+            (
+                "selvedge textile convert AT/p.csv --out AT/p.csv",
+                "--out would overwrite",
+            ),
+        ] {
+            let said = refused(&line.replace("AT", &at.to_string())).unwrap_or_default();
+            assert!(said.contains(what), "{line}: {said}");
+        }
+        // The log of the stage is read, whatever it is called.
+        let line = format!("selvedge stage export --out {at} --log {at}");
+        assert_eq!(refused(&line), None);
     }
 
     #[test]

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::output::OutFile;
 use super::picture_relief::{Origin, ReliefArgs, Seen, describe_none};
 use super::terminal::{self, with_meter};
 use super::{CliError, output, picture_folder};
@@ -26,7 +27,7 @@ pub(super) struct PictureArgs {
     /// Folder for periodicity.json, maxima.csv and pictures of every stage; of several pictures for
     /// a folder each, and pictures.csv
     #[arg(long, value_name = "DIR")]
-    pub(super) out: PathBuf,
+    pub(super) out: OutFile,
     /// Pixels to a millimetre; without a scale lengths are given in pixels only
     #[arg(long, value_name = "P", value_parser = positive, conflicts_with = "dpi")]
     px_per_mm: Option<f64>,
@@ -121,7 +122,7 @@ impl PictureArgs {
     pub(super) fn of_folder(&self, image: &Path, name: &OsStr) -> Self {
         Self {
             image: image.to_owned(),
-            out: self.out.join(name),
+            out: self.out.join(name).into_os_string().into(),
             relief: self.relief.of_folder(name),
             ..self.clone()
         }

@@ -10,6 +10,7 @@ use std::time::Instant;
 use clap::Args;
 
 use super::method::MethodArgs;
+use super::output::{InFile, OutFile};
 use super::play_log::PlayLog;
 use super::play_report::PlayReport;
 use super::play_source::{Moving, SourceArgs};
@@ -20,13 +21,14 @@ use selvedge_device::{
     ArrayProfile, Bridge, BridgeEvent, Driver, Ended, FrameSource, SessionLog, Target,
 };
 use selvedge_engine::{CardChannels, Notice, PreparedScene};
+use selvedge_foundation::files::read_text;
 use selvedge_render::scene::LoadedScene;
 
 /// What to play, and where.
 #[derive(Debug, Args)]
 pub(super) struct PlayArgs {
-    /// Scene file
-    scene: PathBuf,
+    /// Scene file; `-` is standard input
+    scene: InFile,
     #[command(flatten)]
     source: SourceArgs,
     /// Serial port of the device
@@ -45,7 +47,7 @@ pub(super) struct PlayArgs {
     baud: array::BaudArgs,
     /// Every frame sent: apply tick, soft-start gain, amplitudes and codes
     #[arg(long, value_name = "L.csv")]
-    log: Option<PathBuf>,
+    log: Option<OutFile>,
     #[command(flatten)]
     record: RecordArgs,
     #[command(flatten)]
@@ -56,16 +58,16 @@ impl PlayArgs {
     /// The files whose hashes a session log holds.
     fn files(&self) -> Vec<(&'static str, &Path)> {
         let path = self.source.path_file().map(|path| ("path", path));
-        [("scene", self.scene.as_path())]
-            .into_iter()
-            .chain(path)
-            .collect()
+        let scene = (!self.scene.is_stream()).then_some(("scene", &*self.scene));
+        scene.into_iter().chain(path).collect()
     }
 }
 
 /// Plays, and says how punctual it was.
 pub(super) fn run(args: &PlayArgs) -> Result<(), CliError> {
-    let loaded = LoadedScene::read(&args.scene, selvedge_workbench::build_cache().as_ref())?;
+    let cache = selvedge_workbench::build_cache();
+    let text = read_text(&args.scene)?;
+    let loaded = LoadedScene::from_text(&text, args.scene.place(), cache.as_ref())?;
     if let Some(changed) = loaded.changed() {
         terminal::notice(&changed);
     }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use clap::Args;
 
+use super::output::InFile;
 use super::{CliError, terminal};
 use selvedge_engine::{
     Area, EngineCore, EngineError, InputDevice, InputSource, PreparedScene, ProgramLink, Tap,
@@ -29,7 +30,7 @@ pub(super) struct SourceArgs {
         required_unless_present_any = ["input", "listen"],
         conflicts_with = "input"
     )]
-    path: Option<PathBuf>,
+    path: Option<InFile>,
     #[arg(long, value_name = "DEVICE", help = INPUT_HELP, value_parser = device)]
     input: Option<PathBuf>,
     /// Where the device's surface lies in the workspace, mm (as large as its driver says and in the
@@ -53,8 +54,8 @@ pub(super) struct SourceArgs {
 impl SourceArgs {
     /// The path's file, if there is one.
     pub(super) fn path_file(&self) -> Option<&Path> {
-        let path = self.path.as_deref();
-        path.filter(|path| *path != Path::new("-"))
+        let path = self.path.as_ref().filter(|path| !path.is_stream());
+        path.map(|path| &**path)
     }
 }
 
@@ -118,7 +119,7 @@ fn source_of(
     }
     match (&args.path, programs) {
         (None, Some(programs)) => Ok(programs.source()),
-        (Some(path), _) if path != Path::new("-") => {
+        (Some(path), _) if !path.is_stream() => {
             let path = ExplorationPath::read(path)?;
             Ok(InputSource::Replay(Arc::new(path)))
         }

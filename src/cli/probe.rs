@@ -1,14 +1,13 @@
 //! `selvedge probe`: a stylus over a surface, row by row.
 
-use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
 use clap::Args;
 
-use super::output::TableOut;
+use super::output::{InFile, OutFile, TableOut};
 use super::probe_surface::{FeltArgs, felt, tip};
 use super::terminal::{self, Meter};
-use super::{CliError, output, signals};
+use super::{CliError, signals};
 use selvedge_foundation::geometry::Point;
 use selvedge_foundation::numerics::to_whole;
 use selvedge_foundation::progress::Cancelled;
@@ -41,7 +40,7 @@ pub(super) struct ProbeArgs {
     device: DeviceArgs,
     /// The table (standard output if none is named)
     #[arg(long, value_name = "F.csv")]
-    out: Option<PathBuf>,
+    out: Option<OutFile>,
 }
 
 /// Where the stylus goes.
@@ -49,7 +48,7 @@ pub(super) struct ProbeArgs {
 struct WayArgs {
     /// Exploration in the textile's own frame: a path file, as of render; `-` is standard input
     #[arg(long, value_name = "PATH.csv", conflicts_with = "stroke")]
-    path: Option<PathBuf>,
+    path: Option<InFile>,
     /// A line there and back: X,Y:X,Y in mm
     #[arg(long, value_name = "X,Y:X,Y", value_parser = stroke, allow_hyphen_values = true)]
     stroke: Option<[Point; 2]>,
@@ -227,8 +226,7 @@ impl Way {
     fn of(args: &WayArgs) -> Result<Self, CliError> {
         let (kind, own_seconds) = match (&args.path, args.stroke) {
             (Some(path), _) => {
-                let (text, path) = output::read_text(path)?;
-                let path = ExplorationPath::from_csv(&text, path)?;
+                let path = ExplorationPath::read(path)?;
                 let seconds = path.duration_s();
                 (WayKind::Path(path), seconds)
             }

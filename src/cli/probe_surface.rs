@@ -58,6 +58,6 @@ pub(super) fn felt(name: &str, args: &FeltArgs, tip: &Tip) -> Result<FeltSurface
         let map = if args.periodic { map.periodic() } else { map };
         return Ok(FeltSurface::rigid(Relief::of_map(&map)));
     }
-    let textile = args.from.open()?.load(name)?;
+    let textile = args.from.of(name)?.load(name)?;
     Ok(FeltSurface::of_textile(&textile, tip)?)
 }

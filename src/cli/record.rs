@@ -1,10 +1,11 @@
 //! The session log of a command that talks to a device: where it is written, and what is in it.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::Args;
 
 use super::CliError;
+use super::output::OutFile;
 use selvedge_device::{ArrayProfile, LogFeed, SessionLog};
 use selvedge_foundation::files::{read, sha256_hex};
 
@@ -14,7 +15,7 @@ pub(super) struct RecordArgs {
     /// Every packet both ways, every setting, stop, fault and refusal of the link, as CSV; added to
     /// a file that is there
     #[arg(long, value_name = "F.csv")]
-    session_log: Option<PathBuf>,
+    session_log: Option<OutFile>,
     /// Keep hashes of frames in the session log, not the frames
     #[arg(long, requires = "session_log")]
     no_record_frames: bool,

@@ -1,7 +1,7 @@
 //! `selvedge render`: an exploration replayed into files.
 
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -10,6 +10,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::method::MethodArgs;
+use super::output::{InFile, OutFile};
 use super::render_out::{AmplitudeTable, BandTables, Clips, WavKind};
 use super::terminal::{self, Meter};
 use super::{CliError, output, signals};
@@ -27,13 +28,13 @@ const PATH_HELP: &str = "Exploration: a CSV of t_s,x_mm,y_mm, optionally angle_d
 /// What to replay, and what to write.
 #[derive(Debug, Args)]
 pub(super) struct RenderArgs {
-    /// Scene file
-    scene: PathBuf,
+    /// Scene file; `-` is standard input
+    scene: InFile,
     #[arg(long, value_name = "PATH.csv", help = PATH_HELP)]
-    path: PathBuf,
+    path: InFile,
     /// Amplitudes after gains, one row a contactor a tick (standard output if no file is asked for)
     #[arg(long, value_name = "A.csv")]
-    out: Option<PathBuf>,
+    out: Option<OutFile>,
     /// Amplitudes at both ends of what textiles are known to (their `[uncertainty]`): textiles of
     /// pictures; others are written as they are
     #[arg(
@@ -42,12 +43,12 @@ pub(super) struct RenderArgs {
         value_delimiter = ',',
         num_args = 1
     )]
-    band: Vec<PathBuf>,
+    band: Vec<OutFile>,
     #[command(flatten)]
     how: MethodArgs,
     /// The drive waveform, one channel a contactor; full scale is 50 µm
     #[arg(long, value_name = "W.wav")]
-    wav: Option<PathBuf>,
+    wav: Option<OutFile>,
     /// What the waveform is for: float is 48 kHz and f32, archive 8 kHz and i16
     #[arg(long, value_enum, default_value_t = WavKind::Float, requires = "wav")]
     wav_format: WavKind,
@@ -56,13 +57,13 @@ pub(super) struct RenderArgs {
     wav_rate: Option<u32>,
     /// MPEG haptics: a channel a contactor, a keyframe a tick in each band
     #[arg(long, value_name = "H.hjif")]
-    hjif: Option<PathBuf>,
+    hjif: Option<OutFile>,
     /// Drive codes of every contactor, one row a tick
     #[arg(long, value_name = "F.csv")]
-    frames: Option<PathBuf>,
+    frames: Option<OutFile>,
     /// Cost, work left out and level error of every method on this path, as JSON
     #[arg(long, value_name = "S.json")]
-    stats: Option<PathBuf>,
+    stats: Option<OutFile>,
 }
 
 /// A sample rate as it is typed, Hz: two samples a period of the higher carrier at least.
@@ -110,10 +111,9 @@ struct StatsFile<'a> {
 
 /// Replays, and writes what was asked for.
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
-    let (text, named) = output::read_text(&args.path)?;
-    let path = ExplorationPath::from_csv(&text, named)?;
+    let path = ExplorationPath::read(&args.path)?;
     let cache = selvedge_workbench::build_cache();
-    let text = (&*read_text(&args.scene)?, &*args.scene);
+    let text = (&*read_text(&args.scene)?, args.scene.place());
     let loaded = LoadedScene::from_text_along(text, cache.as_ref(), &path)?;
     if let Some(changed) = loaded.changed() {
         terminal::notice(&changed);
@@ -186,8 +186,8 @@ fn write_stats(
     let file = StatsFile {
         program: "selvedge",
         version: env!("CARGO_PKG_VERSION"),
-        scene: &args.scene,
-        path: &args.path,
+        scene: args.scene.place(),
+        path: args.path.place(),
         n_ticks: path.n_ticks(),
         unread: loaded.unread(),
         method: first.method_used,

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 
 use clap::ValueEnum;
 
-use super::output::TableOut;
+use super::output::{Spool, TableOut};
 use super::terminal::with_meter_until;
 use super::{CliError, terminal};
 use selvedge_device::ArrayProfile;
@@ -208,7 +208,7 @@ impl WavKind {
 
 /// The files for other programs that a run writes.
 pub(super) struct Clips {
-    clips: Vec<ClipWriter>,
+    clips: Vec<(ClipWriter, Spool)>,
     amplitudes_um: Vec<[f32; 2]>,
 }
 
@@ -220,8 +220,11 @@ impl Clips {
         title: &str,
     ) -> Result<Self, CliError> {
         let profile = ArrayProfile::default();
-        let create = |(path, kind): &(&Path, ClipKind)| {
-            ClipWriter::create(path, *kind, (&profile, n_contactors), title)
+        let create = |(path, kind): &(&Path, ClipKind)| -> Result<_, CliError> {
+            let spool = Spool::of(path)?;
+            let what = (&profile, n_contactors);
+            let clip = ClipWriter::create(spool.path(), *kind, what, title)?;
+            Ok((clip, spool))
         };
         Ok(Self {
             clips: files.iter().map(create).collect::<Result<_, _>>()?,
@@ -232,7 +235,7 @@ impl Clips {
     /// Writes a tick to all of them.
     pub(super) fn take(&mut self, tick: u64, frames: &[DisplayFrame]) -> Result<(), CliError> {
         side_by_side(frames, &mut self.amplitudes_um);
-        for clip in &mut self.clips {
+        for (clip, _) in &mut self.clips {
             clip.take(tick, &self.amplitudes_um)?;
         }
         Ok(())
@@ -240,8 +243,9 @@ impl Clips {
 
     /// The files are whole; says what a listener should know.
     pub(super) fn finish(self, stop: &Arc<AtomicBool>) -> Result<(), CliError> {
-        for clip in self.clips {
+        for (clip, spool) in self.clips {
             let written = with_meter_until("writing", stop, |progress| clip.finish(progress))?;
+            spool.finish(&written.paths)?;
             if let [first, .., last] = &written.paths[..] {
                 let (first, last) = (first.display(), last.display());
                 let n = written.paths.len();

@@ -1,12 +1,12 @@
 //! `selvedge bridge replay`: what the finger got by a session log, and whether the device told the
 //! truth.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::Args;
 
 use super::bridge_show::ContactorArgs;
-use super::output::TableOut;
+use super::output::{InFile, OutFile, TableOut};
 use super::{CliError, output, terminal};
 use selvedge_device::{ReplayedLink, ReplayedTick};
 use selvedge_foundation::files::TableWriter;
@@ -15,10 +15,10 @@ use selvedge_foundation::files::TableWriter;
 #[derive(Debug, Args)]
 pub(super) struct ReplayArgs {
     /// Session log
-    log: PathBuf,
+    log: InFile,
     /// One row a tick of the device; without it on standard output
     #[arg(long, value_name = "T.csv")]
-    out: Option<PathBuf>,
+    out: Option<OutFile>,
     #[command(flatten)]
     contactors: ContactorArgs,
 }

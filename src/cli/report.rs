@@ -7,8 +7,9 @@ use std::time::Duration;
 
 use clap::Args;
 
+use super::output::{Cell, JsonArgs, OutFile};
 use super::terminal::{Meter, notice};
-use super::{CliError, output, signals};
+use super::{CliError, output, signals, usage};
 
 use selvedge_foundation::progress::CancelFlag;
 use selvedge_foundation::quantity;
@@ -26,7 +27,7 @@ const LOOK_AFTER: Duration = Duration::from_millis(20);
 pub(super) struct ReportArgs {
     /// Folder for tables, plots and index.md; it is made where it is missing
     #[arg(long, value_name = "DIR", required_unless_present_any = ["list", "times_alone"])]
-    out: Option<PathBuf>,
+    out: Option<OutFile>,
     /// Run these studies only
     #[arg(long, value_name = "NAME", num_args = 1..)]
     only: Vec<String>,
@@ -39,6 +40,9 @@ pub(super) struct ReportArgs {
     /// Name the studies and what they ask
     #[arg(long)]
     list: bool,
+    /// Name them as JSON, for other programs
+    #[arg(long, requires = "list")]
+    json: bool,
     /// Say what became slower or less exact since this report.json
     #[arg(long, value_name = "FILE")]
     against: Option<PathBuf>,
@@ -54,7 +58,7 @@ pub(super) struct ReportArgs {
 pub(super) fn run(args: &ReportArgs) -> Result<(), CliError> {
     let mut studies = selvedge_studies::studies();
     studies.extend(selvedge_workbench::studies());
-    let studies = selvedge_studies::choose(studies, &args.only)?;
+    let studies = selvedge_studies::choose(studies, &args.only).map_err(meant)?;
     if args.times_alone {
         let cancel = CancelFlag::shared(signals::stop_flag()?);
         let times = selvedge_studies::times_alone(&studies, (effort(args), args.seed), &cancel)?;
@@ -62,20 +66,39 @@ pub(super) fn run(args: &ReportArgs) -> Result<(), CliError> {
     }
     match &args.out {
         Some(out) if !args.list => make(args, &studies, out),
-        _ => list(&studies),
+        _ => list(&studies, args.json),
     }
 }
 
-fn list(studies: &[Study]) -> Result<(), CliError> {
+/// With the name that was perhaps meant by one that is not known.
+fn meant(error: ReportError) -> CliError {
+    if let ReportError::Unknown { name, known } = &error
+        && let Some(like) = usage::like(name, known.split(", "))
+    {
+        return CliError::Input(format!("no study is called {name:?}; did you mean {like}?"));
+    }
+    error.into()
+}
+
+fn list(studies: &[Study], is_json: bool) -> Result<(), CliError> {
     let width = studies.iter().map(|study| study.name.len()).max();
     let width = width.unwrap_or_default();
-    let line = |study: &Study| format!("  {:width$}  {}\n", study.name, study.question);
-    let chapters = studies.chunk_by(|a, b| a.chapter == b.chapter);
-    let told = chapters.map(|studies| {
-        let lines: String = studies.iter().map(line).collect();
-        format!("{}\n{lines}", studies[0].chapter)
-    });
-    output::print(&told.collect::<String>())
+    let row = |study: &Study| [study.chapter, study.name, study.question].map(Cell::text);
+    let rows: Vec<_> = studies.iter().map(row).collect();
+    let mut last = "";
+    let mut studies = studies.iter();
+    let how = JsonArgs { json: is_json };
+    let columns = ["chapter", "study", "asks"];
+    output::print_rows(&how, columns, &rows, |[chapter, name, asks]| {
+        let own = studies.next().map_or("", |study| study.chapter);
+        let is_new = std::mem::replace(&mut last, own) != own;
+        let heading = if is_new {
+            format!("{chapter}\n")
+        } else {
+            String::new()
+        };
+        format!("{heading}  {name:width$}  {asks}\n")
+    })
 }
 
 fn make(args: &ReportArgs, studies: &[Study], out: &Path) -> Result<(), CliError> {

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::output::OutFile;
 use super::{CliError, output};
 
 use selvedge_foundation::files::encode_png_rgba;
@@ -16,7 +17,7 @@ pub(super) struct ScreenshotArgs {
     scene: Option<PathBuf>,
     /// The picture
     #[arg(long, value_name = "PNG")]
-    out: PathBuf,
+    out: OutFile,
     /// Width, pixels
     #[arg(long, value_name = "PX", default_value_t = 1400)]
     width: usize,

@@ -5,6 +5,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use clap::Subcommand;
 
+use super::output::OutFile;
 use super::{CliError, signals, terminal, workbench};
 
 use selvedge_experiment::visits::Totals;
@@ -17,7 +18,7 @@ pub(super) enum StageCommand {
     Export {
         /// The folder to write into
         #[arg(long, value_name = "DIR")]
-        out: PathBuf,
+        out: OutFile,
         /// The folder of the log (the one that the operator's file names)
         #[arg(long, value_name = "DIR")]
         log: Option<PathBuf>,

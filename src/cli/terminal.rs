@@ -3,7 +3,7 @@
 //! Nothing here writes results. Errors of stderr are dropped: there is nowhere left to tell them.
 
 use std::io::{self, IsTerminal as _, Write as _};
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -17,6 +17,14 @@ const QUIET: Duration = Duration::from_secs(1);
 const REFRESH: Duration = Duration::from_millis(100);
 /// How often a log gets a line.
 const LOG_EVERY: Duration = Duration::from_secs(5);
+
+/// Whether notices and progress are left out.
+static IS_QUIET: AtomicBool = AtomicBool::new(false);
+
+/// Leaves notices and progress out from now on: errors alone are told.
+pub(super) fn be_quiet() {
+    IS_QUIET.store(true, Ordering::Relaxed);
+}
 
 /// What was said lately, by every thread.
 static REPEATS: Mutex<Option<Repeats>> = Mutex::new(None);
@@ -37,6 +45,9 @@ pub(super) fn end() {
 }
 
 fn tell(said: impl FnOnce(&mut Repeats, Instant) -> Vec<String>) {
+    if IS_QUIET.load(Ordering::Relaxed) {
+        return;
+    }
     // A panic elsewhere leaves texts and counts, which cannot be wrong.
     let mut repeats = REPEATS.lock().unwrap_or_else(PoisonError::into_inner);
     let lines = said(repeats.get_or_insert_default(), Instant::now());
@@ -77,7 +88,7 @@ impl Meter {
     /// The share done, 0…1, and what is being done to what.
     pub(super) fn show(&mut self, share: f64, what: &str) {
         let now = Instant::now();
-        if now < self.due {
+        if now < self.due || IS_QUIET.load(Ordering::Relaxed) {
             return;
         }
         self.due = now + if self.is_terminal { REFRESH } else { LOG_EVERY };

@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 
-use super::output::TableOut;
+use super::output::{Cell, JsonArgs, OutFile, TableOut};
 use super::textile_catalogue::{self, CatalogueArgs};
 use super::textile_import::{self, ConvertArgs, ImportArgs, RebuildArgs};
 use super::textile_kes::{self, ImportKesArgs};
 use super::textile_levels::levels;
 use super::textile_make::{self, BuildArgs, MakeCommand};
 use super::textile_models::{self, LearnArgs};
-use super::{CliError, output};
+use super::{CliError, output, usage};
 
 use selvedge_foundation::quantity::fixed;
 use selvedge_textile::Library;
@@ -24,6 +24,8 @@ pub(super) enum TextileCommand {
     /// List the textiles: id, construction, fibre, name
     List {
         #[command(flatten)]
+        how: JsonArgs,
+        #[command(flatten)]
         from: FromLibrary,
     },
     /// Show a textile: what it is, its roughness and its levels
@@ -31,8 +33,10 @@ pub(super) enum TextileCommand {
         /// The textile's id
         id: String,
         /// Print the recipe of a model instead, to make another from it
-        #[arg(long)]
+        #[arg(long, conflicts_with = "json")]
         recipe: bool,
+        #[command(flatten)]
+        how: JsonArgs,
         #[command(flatten)]
         from: FromLibrary,
     },
@@ -42,7 +46,7 @@ pub(super) enum TextileCommand {
         id: String,
         /// The table (standard output if none is named)
         #[arg(long, value_name = "S.csv")]
-        out: Option<PathBuf>,
+        out: Option<OutFile>,
         #[command(flatten)]
         from: FromLibrary,
     },
@@ -50,7 +54,7 @@ pub(super) enum TextileCommand {
     Levels {
         /// The table (standard output if none is named)
         #[arg(long, value_name = "L.csv")]
-        out: Option<PathBuf>,
+        out: Option<OutFile>,
         #[command(flatten)]
         from: FromLibrary,
     },
@@ -101,23 +105,32 @@ impl FromLibrary {
             cache.as_ref(),
         )?)
     }
+
+    /// The same, which holds a textile of this id or none that is like it.
+    pub(super) fn of(&self, id: &str) -> Result<Library, CliError> {
+        let library = self.open()?;
+        usage::check_id(&library, id)?;
+        Ok(library)
+    }
 }
 
 /// Does it.
 pub(super) fn run(command: &TextileCommand) -> Result<(), CliError> {
     match command {
-        TextileCommand::List { from } => list(&from.open()?),
+        TextileCommand::List { how, from } => list(&from.open()?, how),
         TextileCommand::Show {
             id,
             recipe: true,
             from,
-        } => textile_make::print_recipe(&from.open()?, id),
+            ..
+        } => textile_make::print_recipe(&from.of(id)?, id),
         TextileCommand::Show {
             id,
             recipe: false,
+            how,
             from,
-        } => show(&from.open()?, id),
-        TextileCommand::Spectra { id, out, from } => spectra(&from.open()?, id, out.as_deref()),
+        } => show(&from.of(id)?, id, how),
+        TextileCommand::Spectra { id, out, from } => spectra(&from.of(id)?, id, out.as_deref()),
         TextileCommand::Levels { out, from } => levels(&from.open()?, out.as_deref()),
         TextileCommand::Select { from } => select(&from.open()?),
         TextileCommand::Build(args) => textile_make::build(args),
@@ -131,23 +144,23 @@ pub(super) fn run(command: &TextileCommand) -> Result<(), CliError> {
     }
 }
 
-fn list(library: &Library) -> Result<(), CliError> {
+fn list(library: &Library, how: &JsonArgs) -> Result<(), CliError> {
     let mut rows = Vec::new();
     for id in library.ids() {
         let manifest = library.manifest(id)?;
         let construction = manifest.construction.word().to_owned();
-        rows.push([id.clone(), construction, manifest.fibre, manifest.name]);
+        let row = [id.clone(), construction, manifest.fibre, manifest.name];
+        rows.push(row.map(Cell::text));
     }
     let widths = [0, 1, 2].map(|column| {
-        let width = |row: &[String; 4]| row[column].chars().count();
+        let width = |row: &[Cell; 4]| row[column].to_string().chars().count();
         rows.iter().map(width).max().unwrap_or(0)
     });
-    let line = |[id, construction, fibre, name]: &[String; 4]| {
+    let columns = ["id", "construction", "fibre", "name"];
+    output::print_rows(how, columns, &rows, |[id, construction, fibre, name]| {
         let [a, b, c] = widths;
         format!("{id:a$}  {construction:b$}  {fibre:c$}  {name}\n")
-    };
-    let lines: Vec<String> = rows.iter().map(line).collect();
-    output::print(&lines.concat())
+    })
 }
 
 fn select(library: &Library) -> Result<(), CliError> {
@@ -161,7 +174,7 @@ fn select(library: &Library) -> Result<(), CliError> {
     output::print(&lines.concat())
 }
 
-fn show(library: &Library, id: &str) -> Result<(), CliError> {
+fn show(library: &Library, id: &str, how: &JsonArgs) -> Result<(), CliError> {
     let textile = library.load(id)?;
     let manifest = textile.manifest();
     let levels = Levels::of(textile.surface(), &Filters::default());
@@ -216,11 +229,16 @@ fn show(library: &Library, id: &str) -> Result<(), CliError> {
             .map(|note| ("fall-back", note)),
     );
     rows.retain(|(_, value)| !value.is_empty());
-    let lines = rows
-        .into_iter()
-        .map(|(key, value)| format!("{key:14}{value}\n"));
-    let measured = textile_kes::figures(&manifest.measured);
-    output::print(&(lines.collect::<String>() + &measured))
+    let own = rows.into_iter().map(|(key, value)| {
+        let line = format!("{key:14}{value}\n");
+        ([key, &value].map(Cell::text), line)
+    });
+    let all = own.chain(textile_kes::figures(&manifest.measured));
+    let (rows, lines): (Vec<_>, Vec<String>) = all.unzip();
+    let mut lines = lines.into_iter();
+    output::print_rows(how, ["what", "value"], &rows, |_| {
+        lines.next().unwrap_or_default()
+    })
 }
 
 /// Where a surface's spectra come from.

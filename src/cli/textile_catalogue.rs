@@ -1,9 +1,8 @@
 //! `selvedge textile catalogue`: a sheet for every textile of a library.
 
-use std::path::PathBuf;
-
 use clap::Args;
 
+use super::output::OutFile;
 use super::terminal::with_meter;
 use super::{CliError, output};
 use selvedge_foundation::progress::Progress;
@@ -14,7 +13,7 @@ use selvedge_textile::{Library, write_catalogue};
 pub(super) struct CatalogueArgs {
     /// The folder of the sheets and their index.md
     #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    out: OutFile,
 }
 
 /// Writes it.

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::output::{InFile, OutFile};
 use super::picture::numbers;
 use super::textile_words::{WordsArgs, construction};
 use super::usage::one_of;
@@ -62,10 +63,10 @@ impl AskedArgs {
 #[derive(Debug, Args)]
 pub(super) struct ImportArgs {
     /// The file
-    file: PathBuf,
+    file: InFile,
     /// The textile's folder; several places make DIR-1, DIR-2 …
     #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    out: OutFile,
     #[command(flatten)]
     asked: AskedArgs,
     /// The part that is taken: from U, W to U, W, mm from the lower left corner
@@ -102,10 +103,10 @@ pub(super) struct ImportArgs {
 #[derive(Debug, Args)]
 pub(super) struct ConvertArgs {
     /// The file
-    file: PathBuf,
+    file: InFile,
     /// The file to write: .x3p, .gsf, .npy, .png or .tif
     #[arg(long, value_name = "FILE")]
-    out: PathBuf,
+    out: OutFile,
     #[command(flatten)]
     asked: AskedArgs,
     /// Fill missing points between the nearest heights
@@ -199,7 +200,7 @@ pub(super) struct RebuildArgs {
     folder: PathBuf,
     /// Its file of heights, where that is not in the folder
     #[arg(long, value_name = "FILE")]
-    file: Option<PathBuf>,
+    file: Option<InFile>,
 }
 
 /// Makes a textile again, and says how many of its files are other ones now.
@@ -236,7 +237,7 @@ pub(super) fn convert(args: &ConvertArgs) -> Result<(), CliError> {
     let n_missing = measured.n_missing();
     if args.fill && n_missing > 0 {
         measured = measured.filled().map_err(|source| TextileError::Surface {
-            path: args.file.clone(),
+            path: args.file.to_path_buf(),
             source,
         })?;
         let file = args.file.display();

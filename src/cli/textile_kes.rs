@@ -1,10 +1,12 @@
 //! `selvedge textile import-kes`: a textile from files of the Kawabata surface tester.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::{Args, ValueEnum};
 
+use super::output::{Cell, InFile, OutFile};
 use super::textile_words::{WordsArgs, construction};
 use super::usage::one_of;
 use super::{CliError, output, terminal};
@@ -19,10 +21,10 @@ use selvedge_textile::{
 pub(super) struct ImportKesArgs {
     /// Exports of the surface tester: text in columns
     #[arg(required = true)]
-    files: Vec<PathBuf>,
+    files: Vec<InFile>,
     /// The textile's folder
     #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    out: OutFile,
     /// What people call it
     #[arg(long)]
     name: String,
@@ -69,7 +71,7 @@ pub(super) struct ImportKesArgs {
     official_band: bool,
     /// A trace of friction along the warp
     #[arg(long, value_name = "FILE")]
-    friction: Option<PathBuf>,
+    friction: Option<InFile>,
 }
 
 const LENGTHS: [(&str, LengthUnit); 3] = [
@@ -169,7 +171,7 @@ impl ImportKesArgs {
 /// Imports.
 pub(super) fn run(args: &ImportKesArgs) -> Result<(), CliError> {
     let options = args.options()?;
-    let read = |path: &PathBuf| -> Result<_, CliError> {
+    let read = |path: &InFile| -> Result<_, CliError> {
         Ok((path.clone(), selvedge_textile::read_measurement(path)?))
     };
     let strokes = args.files.iter().map(read).collect::<Result<Vec<_>, _>>()?;
@@ -191,7 +193,7 @@ pub(super) fn run(args: &ImportKesArgs) -> Result<(), CliError> {
     output::print(&report(&import, &args.out)?)
 }
 
-fn given((path, bytes): &(PathBuf, Vec<u8>)) -> KesFile<'_> {
+fn given((path, bytes): &(InFile, Vec<u8>)) -> KesFile<'_> {
     KesFile { path, bytes }
 }
 
@@ -228,22 +230,22 @@ fn report(import: &KesImport, out: &Path) -> Result<String, CliError> {
         let label = format!("{name} section");
         writeln!(text, "{label:14}{from} to {to} mm ({how})").map_err(failed)?;
     }
-    text.push_str(&figures(&import.figures().measured()));
+    let measured = figures(&import.figures().measured());
+    text.extend(measured.into_iter().map(|(_, line)| line));
     writeln!(text, "{}", out.display()).map_err(failed)?;
     Ok(text)
 }
 
-/// Measured figures, one line each.
-pub(super) fn figures(measured: &std::collections::BTreeMap<String, f64>) -> String {
-    let line = |figure: MeasuredFigure| {
+/// Measured figures: what each is and its value, and its line.
+pub(super) fn figures(measured: &BTreeMap<String, f64>) -> Vec<([Cell; 2], String)> {
+    let row = |figure: MeasuredFigure| {
         let value = format!("{} {}", figure.value, figure.unit).replace('-', "−");
         let (name, what) = (figure.name, figure.what);
-        format!("{name:14}{value:16}{what}").trim_end().to_owned() + "\n"
+        let line = format!("{name:14}{value:16}{what}").trim_end().to_owned() + "\n";
+        ([Cell::text(name), Cell::text(value.trim_end())], line)
     };
-    MeasuredFigure::all_of(measured)
-        .into_iter()
-        .map(line)
-        .collect()
+    let all = MeasuredFigure::all_of(measured).into_iter();
+    all.map(row).collect()
 }
 
 #[cfg(test)]

@@ -1,16 +1,12 @@
 //! `selvedge textile levels`: how strong every textile of a library is and how sure that is, and
 //! what the library spans.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use serde::Serialize;
-
-use super::output::TableOut;
+use super::output::{Cell, TableOut, rows_to_json};
 use super::terminal::with_meter;
 use super::{CliError, output};
-use selvedge_foundation::files::to_json_string;
 use selvedge_foundation::progress::Progress;
 use selvedge_foundation::quantity::{factor_of_gain, fixed, level_db};
 use selvedge_textile::tactile::{Band, Filters, Levels, Tuning};
@@ -60,10 +56,8 @@ pub(super) fn levels(library: &Library, out: Option<&Path>) -> Result<(), CliErr
     let rows = all.iter().map(|one| cells(one, (&tuning, reference_db)));
     let is_json = |file: &&Path| file.extension().is_some_and(|ending| ending == "json");
     if let Some(file) = out.filter(is_json) {
-        let rows: Vec<BTreeMap<&str, Cell<'_>>> = rows
-            .map(|cells| LEVELS_HEADER.into_iter().zip(cells).collect())
-            .collect();
-        output::write_text(Some(file), &to_json_string(&rows, file)?)?;
+        let rows: Vec<_> = rows.collect();
+        output::write_text(Some(file), &rows_to_json(LEVELS_HEADER, &rows, file)?)?;
         return output::print(&spread(&all, (&tuning, reference_db)));
     }
     let mut table = TableOut::new(out, &LEVELS_HEADER)?;
@@ -71,7 +65,7 @@ pub(super) fn levels(library: &Library, out: Option<&Path>) -> Result<(), CliErr
         let row = table.rows();
         for cell in cells {
             match cell {
-                Cell::Text(text) => row.text(text),
+                Cell::Text(text) => row.text(&text),
                 Cell::Number(Some(number)) => row.number(number),
                 Cell::Number(None) => row.text(""),
             };
@@ -79,35 +73,23 @@ pub(super) fn levels(library: &Library, out: Option<&Path>) -> Result<(), CliErr
         row.end_row()?;
     }
     table.finish()?;
-    match out {
+    match output::named_file(out) {
         // The table itself is on standard output.
         None => Ok(()),
-        Some(file) if file == Path::new("-") => Ok(()),
         Some(_) => output::print(&spread(&all, (&tuning, reference_db))),
     }
 }
 
-/// A cell of the table.
-#[derive(Debug, Clone, Copy, Serialize)]
-#[serde(untagged)]
-enum Cell<'a> {
-    Text(&'a str),
-    Number(Option<f64>),
-}
-
 /// The row of a textile.
-fn cells<'a>(
-    (textile, levels): &'a Measured,
-    tuning: (&Tuning, f64),
-) -> [Cell<'a>; LEVELS_HEADER.len()] {
+fn cells((textile, levels): &Measured, tuning: (&Tuning, f64)) -> [Cell; LEVELS_HEADER.len()] {
     let known = textile.manifest().uncertainty.as_ref();
     let known = known.filter(|known| !known.levels.is_empty());
     let [low, high] = Band::ALL.map(|band| known.map(|known| known.mean_level_db(band)));
     let end = |of: Option<[f64; 2]>, end: usize| Cell::Number(of.map(|ends| ends[end]));
-    let number = |x: f64| Cell::Number(Some(x));
+    let number = Cell::number;
     let [tuned_low, tuned_high] = Band::ALL.map(|band| tuned_um(textile, levels, tuning, band));
     [
-        Cell::Text(textile.id()),
+        Cell::text(textile.id()),
         number(levels.mean_um[0]),
         number(levels.mean_um[1]),
         Cell::Number(levels.level_db()),

@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use clap::{Args, Subcommand};
 
+use super::output::{InFile, OutFile};
 use super::terminal::with_meter;
 use super::textile::FromLibrary;
 use super::textile_models::{self, BrownianArgs, FourierArgs, RestorationArgs};
@@ -35,7 +36,7 @@ pub(super) enum MakeCommand {
         from: PathBuf,
         /// The folder that the library is written to; it may be the same
         #[arg(long, value_name = "DIR")]
-        out: PathBuf,
+        out: OutFile,
     },
 }
 
@@ -46,7 +47,7 @@ pub(super) struct BuildArgs {
     from: FromLibrary,
     /// The folder that the textiles are written to, with a library.toml
     #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    out: OutFile,
     /// Threads that share the work (as many as the machine has); the bytes are the same
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..))]
     threads: Option<u8>,
@@ -56,10 +57,10 @@ pub(super) struct BuildArgs {
 #[derive(Debug, Args)]
 pub(super) struct MakeArgs {
     /// The recipe: a manifest; "selvedge textile show ID --recipe" prints one
-    recipe: PathBuf,
+    recipe: InFile,
     /// The textile's folder
     #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    out: OutFile,
 }
 
 /// Makes it.

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::Serialize;
 
+use super::output::{InFile, OutFile};
 use super::{CliError, output, terminal};
 use selvedge_foundation::files::{self, FileError};
 use selvedge_textile::surface::Profile;
@@ -18,10 +19,10 @@ use selvedge_textile::{FourierTemplate, Readings, Reduced, TextileError};
 #[derive(Debug, Args)]
 pub(super) struct Common {
     /// A recipe: a manifest; without it the options say what is made
-    recipe: Option<PathBuf>,
+    recipe: Option<InFile>,
     /// The textile's folder
     #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    out: OutFile,
     /// What people call it
     #[arg(long, conflicts_with = "recipe")]
     name: Option<String>,
@@ -119,7 +120,7 @@ pub(super) struct RestorationArgs {
 #[derive(Debug, Args)]
 pub(super) struct LearnArgs {
     /// Profiles of different places, alike in length and step
-    profiles: Vec<PathBuf>,
+    profiles: Vec<InFile>,
     /// What probe and tracker read over time of one stroke; may be given several times
     #[arg(long, num_args = 2, value_names = ["PROBE.csv", "TRACKER.csv"])]
     readings: Vec<PathBuf>,
@@ -131,7 +132,7 @@ pub(super) struct LearnArgs {
     name: String,
     /// The file of the template
     #[arg(long, value_name = "T.toml")]
-    out: PathBuf,
+    out: OutFile,
 }
 
 /// Makes a Brownian surface.

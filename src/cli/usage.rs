@@ -9,7 +9,8 @@ use clap::Command;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 
-use super::{output, terminal};
+use super::{CliError, output, terminal};
+use selvedge_textile::Library;
 
 /// Reads one of some values by its name.
 pub(super) fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
@@ -22,6 +23,16 @@ pub(super) fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
             .map(|(_, value)| *value)
             .ok_or("this has no meaning here")
     })
+}
+
+/// Puts a `--quiet` that comes before the command behind it, where it may stand: what comes first
+/// is otherwise a scene.
+pub(super) fn switch_behind_command(args: &mut [OsString]) {
+    if let [_, switch, command, ..] = args
+        && (switch == "--quiet" || switch == "-q")
+    {
+        std::mem::swap(switch, command);
+    }
 }
 
 /// Answers help and version on standard output, everything else with one line and exit code 2.
@@ -72,6 +83,28 @@ pub(super) fn like<'a>(word: &str, names: impl Iterator<Item = &'a str>) -> Opti
     let apart = names.map(|name| (n_edits(word, name), name));
     let (n_edits, name) = apart.min_by_key(|(n_edits, _)| *n_edits)?;
     (3 * n_edits <= word.len().max(name.len())).then_some(name)
+}
+
+/// What to do about a name that is not among those known: what was perhaps meant, or all there is.
+pub(super) fn mend(name: &str, known: &[&str]) -> String {
+    match like(name, known.iter().copied()) {
+        Some(meant) => format!("did you mean {meant}?"),
+        None => format!("give one of {}", known.join(", ")),
+    }
+}
+
+/// Refuses a textile that a library does not have, where it is like one that it has.
+///
+/// # Errors
+/// The id is such a one.
+pub(super) fn check_id(library: &Library, id: &str) -> Result<(), CliError> {
+    let ids = || library.ids().iter().map(String::as_str);
+    match like(id, ids()) {
+        Some(meant) if !ids().any(|known| known == id) => Err(CliError::Input(format!(
+            "no textile \"{id}\"; did you mean {meant}?"
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// Letters to be left out, put in or exchanged to make one word of another (Levenshtein 1966), two

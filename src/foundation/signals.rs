@@ -4,7 +4,7 @@
 
 use std::io;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
@@ -14,12 +14,16 @@ use signal_hook::flag;
 #[error("cannot listen to signals: {0}; try again")]
 pub struct SignalError(#[from] io::Error);
 
+/// Whether a part of the program ends its work itself when a signal comes.
+static IS_HEARD: AtomicBool = AtomicBool::new(false);
+
 /// A flag that SIGINT, SIGTERM and SIGHUP raise, however often they come: what is under way ends
 /// cleanly, and a device gets its STOP.
 ///
 /// # Errors
 /// The system does not let the program listen.
 pub fn stop_flag() -> Result<Arc<AtomicBool>, SignalError> {
+    IS_HEARD.store(true, Ordering::Relaxed);
     let stop = Arc::new(AtomicBool::new(false));
     for signal in ends() {
         flag::register(signal, Arc::clone(&stop))?;
@@ -34,13 +38,36 @@ pub fn stop_flag() -> Result<Arc<AtomicBool>, SignalError> {
 /// device falls silent by its own rule.
 #[cfg(unix)]
 pub fn on_signal(act: impl Fn() + Send + 'static) {
+    IS_HEARD.store(true, Ordering::Relaxed);
+    listen(move |_signal| act());
+}
+
+/// Lets SIGINT, SIGTERM and SIGHUP end the program as they always did, but for what is half
+/// written, which goes first. Where a part of the program listens itself, it ends as that wishes.
+#[cfg(unix)]
+pub fn leave_nothing_behind() {
+    listen(|signal| {
+        if !IS_HEARD.load(Ordering::Relaxed) {
+            let end = || drop(signal_hook::low_level::emulate_default_handler(signal));
+            crate::files::abandon_unfinished(end);
+        }
+    });
+}
+
+/// This system has no such signals.
+#[cfg(not(unix))]
+pub fn leave_nothing_behind() {}
+
+/// Hears signals on a thread of its own that ends with the process.
+#[cfg(unix)]
+fn listen(act: impl Fn(i32) + Send + 'static) {
     let Ok(mut signals) = signal_hook::iterator::Signals::new(ends()) else {
         return;
     };
-    let listen = move || signals.forever().for_each(|_signal| act());
+    let hear = move || signals.forever().for_each(&act);
     let listener = std::thread::Builder::new().name("signals".to_owned());
     // A system that has no thread left to give cannot run the engine either.
-    drop(listener.spawn(listen));
+    drop(listener.spawn(hear));
 }
 
 /// This system has no such signals.

@@ -6,7 +6,7 @@
 
 use std::ops::ControlFlow;
 
-use super::array::{Accuracy, ArrayRenderer, DisplayFrame, Method};
+use super::array::{Accuracy, ArrayRenderer, DisplayFrame, ErrorBound, Method, unfiltered_um};
 use super::error_meter::ErrorMeter;
 use super::stats::{Histogram, RunStats};
 use super::{RenderError, RenderScene};
@@ -68,7 +68,7 @@ pub fn replay(
         path.poses_into(&pose, &mut poses);
         if let Some(comparison) = &mut comparison {
             renderer.tick(&poses);
-            comparison.add(&poses, renderer.frames());
+            comparison.add(&poses, renderer.frames(), &renderer.bound());
         } else {
             timed_tick(&mut renderer, &poses);
         }
@@ -91,6 +91,8 @@ pub fn replay(
         tick_p99_ns: times_ns.quantile(0.99),
         tick_max_ns: times_ns.largest(),
         counters: *renderer.counters(),
+        unfiltered_um: comparison.as_ref().map(Comparison::unfiltered_um),
+        bound_share: comparison.as_ref().map(|comparison| comparison.bound_share),
         level_error: comparison.map(|comparison| comparison.meter.finish()),
     })
 }
@@ -131,14 +133,19 @@ pub fn replay_pair(
 }
 
 /// The reference beside a run.
-struct Comparison {
+struct Comparison<'a> {
+    scene: &'a RenderScene,
     reference: ArrayRenderer,
     meter: ErrorMeter,
+    /// What each textile that was felt gives unfiltered, µm.
+    unfiltered_um: Vec<Option<f64>>,
+    /// The largest error as a share of the bound.
+    bound_share: f64,
 }
 
-impl Comparison {
+impl<'a> Comparison<'a> {
     /// Runs the reference once to learn its largest amplitudes.
-    fn prepare(scene: &RenderScene, path: &ExplorationPath) -> Result<Self, RenderError> {
+    fn prepare(scene: &'a RenderScene, path: &ExplorationPath) -> Result<Self, RenderError> {
         let mut reference = ArrayRenderer::prepare(scene, Method::Reference, &Accuracy::default())?;
         let mut largest_um = [0.0_f64; 2];
         let mut poses = vec![Pose::default(); scene.displays.len()];
@@ -152,19 +159,43 @@ impl Comparison {
             }
         }
         Ok(Self {
+            scene,
             reference,
             meter: ErrorMeter::new(largest_um),
+            unfiltered_um: vec![None; scene.textiles.len()],
+            bound_share: 0.0,
         })
     }
 
-    fn add(&mut self, poses: &[Pose], frames: &[DisplayFrame]) {
-        for (frame, reference) in frames.iter().zip(self.reference.tick(poses)) {
+    fn add(&mut self, poses: &[Pose], frames: &[DisplayFrame], bound: &ErrorBound) {
+        self.reference.tick(poses);
+        for (frame, reference) in frames.iter().zip(self.reference.frames()) {
             for contactor in 0..frame.n_contactors() {
-                self.meter.add(
-                    frame.amplitude_um(contactor),
-                    reference.amplitude_um(contactor),
-                );
+                let found = frame.amplitude_um(contactor);
+                let exact = reference.amplitude_um(contactor);
+                self.meter.add(found, exact);
+                let Some(textile) = reference.textile(contactor) else {
+                    continue;
+                };
+                let surface = &self.scene.textiles[textile].surface;
+                let known_um = &mut self.unfiltered_um[textile];
+                let of_textile_um = *known_um.get_or_insert_with(|| unfiltered_um(surface));
+                // The bound is of amplitudes before gains.
+                let factors = self.reference.gain_factors(textile);
+                for (b, factor) in factors.into_iter().enumerate() {
+                    if factor > 0.0 && factor.is_finite() {
+                        let pair = [found[b] / factor, exact[b] / factor];
+                        let share = bound.share_of(of_textile_um, pair);
+                        self.bound_share = self.bound_share.max(share);
+                    }
+                }
             }
         }
+    }
+
+    /// The largest of all textiles that were felt, µm.
+    fn unfiltered_um(&self) -> f64 {
+        let felt = self.unfiltered_um.iter().flatten().copied();
+        felt.fold(0.0, f64::max)
     }
 }

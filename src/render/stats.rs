@@ -144,6 +144,11 @@ pub struct RunStats {
     pub(crate) tick_max_ns: f64,
     /// What was evaluated and left out.
     pub counters: Counters,
+    /// T of the bound, the largest of the textiles that were felt, µm before gains: from T/1000 on
+    /// the bound is one of level; if errors were measured.
+    pub unfiltered_um: Option<f64>,
+    /// The largest error as a share of what the bound allows, if it was measured: at most 1.
+    pub bound_share: Option<f64>,
     /// The error found, if it was measured.
     pub level_error: Option<LevelError>,
 }

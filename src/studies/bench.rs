@@ -142,6 +142,20 @@ impl Timing {
         (is_cheaper || is_dearer).then_some(is_cheaper)
     }
 
+    /// It over another one, process by process where as many measured both; else by the medians.
+    pub(crate) fn over(&self, other: &Self) -> Ratio {
+        let mut all: Vec<f64> = if self.rounds.n == other.rounds.n {
+            let pairs = self.rounds.all().iter().zip(other.rounds.all());
+            pairs.map(|(own, other)| own / other).collect()
+        } else {
+            vec![self.cpu_s / other.cpu_s]
+        };
+        Ratio {
+            middle: median(&mut all),
+            smallest: all.iter().copied().fold(f64::INFINITY, f64::min),
+        }
+    }
+
     /// That of so many times the work, or of a part of it.
     pub(crate) fn times(self, factor: f64) -> Self {
         Self {
@@ -152,6 +166,15 @@ impl Timing {
             ..self
         }
     }
+}
+
+/// A time over another one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Ratio {
+    /// The median over the processes.
+    pub(crate) middle: f64,
+    /// What no process is below.
+    pub(crate) smallest: f64,
 }
 
 /// Hears how far a study is.

@@ -128,7 +128,7 @@ fn promises(rows: &[Row], ends_s: [f64; 2], unit: &str) -> Vec<Series> {
     let mut promised: Vec<f64> = Vec::new();
     let drawn = rows.iter().filter(|row| row.cost.is_some());
     for promise in drawn.filter_map(|row| row.promised) {
-        if promise > 0.0 && !promised.contains(&promise) {
+        if promise > 0.0 && promise.is_finite() && !promised.contains(&promise) {
             promised.push(promise);
         }
     }

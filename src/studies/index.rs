@@ -77,12 +77,23 @@ fn text(done: &[Told<'_>], report: &Report, about: &About<'_>) -> String {
 /// A chapter: a page by itself.
 fn chapter_text(done: &[Told<'_>], about: &About<'_>) -> String {
     let mut out = vec![format!("# {}\n", chart::titled(done[0].0.chapter))];
+    let line = |(study, ..): &Told<'_>| {
+        let (title, question) = (chart::titled(study.name), cell(study.question));
+        format!("- [{title}](#{}): {question}", anchor(study))
+    };
+    out.extend(done.iter().map(line));
+    out.push("- [Where and how](#where-and-how)\n".to_owned());
     for (study, findings, took) in done {
         study_text(study, findings, &time(took.as_secs_f64()), &mut out);
     }
     out.push("## Where and how\n".to_owned());
     about_text(about, &mut out);
     out.join("\n")
+}
+
+/// Where a study begins on its page.
+fn anchor(study: &Study) -> String {
+    chart::titled(study.name).to_lowercase().replace(' ', "-")
 }
 
 /// Every study in a line: what it asks, how many promises it keeps, what keeps its promise at least
@@ -105,12 +116,13 @@ fn verdicts(done: &[Told<'_>], out: &mut Vec<String>) {
         };
         let near = |row: &Row| Some((row.error? / row.promised?, row.error?, row.promised?));
         let worst = findings.rows.iter().filter_map(near);
+        let worst = worst.filter(|(share, error, _)| share.is_finite() && error.is_finite());
         let worst = worst.max_by(|a, b| a.0.total_cmp(&b.0));
         let worst = worst.map_or_else(String::new, |(_, error, promised)| {
             let unit = study.error.1;
             format!("{} of {} {unit}", number(error), number(promised))
         });
-        let anchor = chart::titled(study.name).to_lowercase().replace(' ', "-");
+        let anchor = anchor(study);
         out.push(format!(
             "| {0} | [{1}]({0}.md#{anchor}) | {2} | {kept} | {3} | {4} |",
             study.chapter,
@@ -134,8 +146,10 @@ fn broken(study: &Study, findings: &Findings, out: &mut Vec<String>) {
         let parts = [&row.method, &row.setting, &row.case].map(|part| cell(part));
         let named: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
         let unit = study.error.1;
-        let error = row.error.map_or_else(|| "nothing".to_owned(), number);
-        let promised = row.promised.map(number).unwrap_or_default();
+        let [error, promised] = [row.error, row.promised]
+            .map(|value| value.filter(|value| value.is_finite()).map(number));
+        let error = error.unwrap_or_else(|| "nothing".to_owned());
+        let promised = promised.unwrap_or_default();
         let came = match row.further("came_back") {
             "" => format!("{error} {unit} where {promised} {unit} is promised"),
             came => format!(

@@ -71,6 +71,7 @@ pub fn studies() -> Vec<Study> {
     vec![
         rendering::STUDY,
         rendering::TOTAL,
+        rendering::TURNING,
         adversarial::STUDY,
         spectral_model::STUDY,
         areal::STUDY,

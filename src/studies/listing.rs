@@ -123,7 +123,8 @@ fn column<'a>(heading: &str, say: impl Fn(usize, &Row) -> String + 'a) -> Column
 
 fn numbers<'a>(heading: &str, of: fn(&Row) -> Option<f64>) -> Column<'a> {
     column(heading, move |_, row| {
-        of(row).map(number).unwrap_or_default()
+        let known = of(row).filter(|value| value.is_finite());
+        known.map(number).unwrap_or_default()
     })
 }
 

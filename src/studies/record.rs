@@ -32,6 +32,8 @@ pub(crate) struct RowRecord {
     pub(crate) setting: String,
     pub(crate) case: String,
     pub(crate) error: Option<f64>,
+    pub(crate) error_p99: Option<f64>,
+    pub(crate) bytes: Option<u64>,
     pub(crate) is_kept: Option<bool>,
     pub(crate) time: Option<TimeRecord>,
 }
@@ -74,6 +76,8 @@ impl Record {
             setting: row.setting.clone(),
             case: row.case.clone(),
             error: row.error.and_then(finite),
+            error_p99: row.error_p99.and_then(finite),
+            bytes: row.bytes,
             is_kept: row.is_kept(),
             time: row.cost.map(|cost| TimeRecord {
                 cpu_s: cost.cpu_s,

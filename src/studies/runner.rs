@@ -329,6 +329,7 @@ fn measure_again(timed: &[Study], effort: Effort, making: &mut Making<'_>, again
             && names.contains(name)
         {
             let n_missing = rounds::join(name, findings, &records);
+            findings.judge_times();
             if n_missing > 0 {
                 let words = format!("{n_missing} rows were not timed by every process.");
                 findings.notes.push(words);

@@ -1,13 +1,18 @@
 //! What changed since an earlier report: what became slower or faster beyond what both reports'
-//! processes disagree by, what became less or more exact, which promises broke or hold again.
+//! processes disagree by, what became less or more exact, what takes more memory or less, which
+//! promises broke.
 //!
-//! Errors depend on seed and effort alone, so that any change is one; times are compared by their
-//! intervals, which have to be apart.
+//! Errors and bytes depend on seed and effort alone, so that any change is one; times are compared
+//! by their intervals, which have to be apart. The quartiles of one process alone say less than the
+//! span of several, and changes that rest on them say so.
 
 use super::record::{Record, RowRecord};
 
 /// Errors closer than this to each other, as a share, are the same: other machines round otherwise.
 const SAME: f64 = 1e-6;
+
+/// What is said of a time that one of the reports took in one process alone.
+const ONE_PROCESS: &str = " (by quartiles of one process)";
 
 /// The changes, one line a row, worst first; and what could not be compared.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -20,6 +25,10 @@ pub(crate) struct Since {
     pub(crate) less_exact: Vec<String>,
     /// Errors that fell.
     pub(crate) more_exact: Vec<String>,
+    /// Bytes that grew.
+    pub(crate) larger: Vec<String>,
+    /// Bytes that fell.
+    pub(crate) smaller: Vec<String>,
     /// Times that grew.
     pub(crate) slower: Vec<String>,
     /// Times that fell.
@@ -55,18 +64,15 @@ impl Since {
             if before.is_kept == Some(true) && row.is_kept == Some(false) {
                 since.broken.push(name.clone());
             }
-            if let (Some(was), Some(is), true) = (before.error, row.error, are_errors_alike) {
-                let words = format!("{name}: {was:.3e} → {is:.3e}");
-                if is > was * (1.0 + SAME) {
-                    since.less_exact.push(words);
-                } else if is < was * (1.0 - SAME) {
-                    since.more_exact.push(words);
-                }
+            if are_errors_alike {
+                since.compare_numbers(before, row, &name);
             }
             if let (Some(was), Some(is)) = (before.time, row.time)
                 && (is.cpu_low_s > was.cpu_high_s || is.cpu_high_s < was.cpu_low_s)
             {
-                changes.push((is.cpu_s / was.cpu_s, name));
+                let is_of_one = was.n_processes.min(is.n_processes) == 1;
+                let how = if is_of_one { ONE_PROCESS } else { "" };
+                changes.push((is.cpu_s / was.cpu_s, format!("{name}{how}")));
             }
         }
         since.n_alone += left.len();
@@ -82,6 +88,39 @@ impl Since {
         since
     }
 
+    /// Compares what the seed decides.
+    fn compare_numbers(&mut self, before: &RowRecord, row: &RowRecord, name: &str) {
+        let number = |x: f64| format!("{x:.3e}");
+        let memory = |x: f64| super::readable::bytes(selvedge_foundation::numerics::to_whole(x));
+        let bytes = |row: &RowRecord| row.bytes.map(|n| n as f64);
+        let (is_more, is_less) = (
+            |was: f64, is: f64| is > was * (1.0 + SAME),
+            |was: f64, is: f64| is < was * (1.0 - SAME),
+        );
+        for (what, [was, is]) in [
+            ("", [before.error, row.error]),
+            (", 99th percentile", [before.error_p99, row.error_p99]),
+        ] {
+            let (Some(was), Some(is)) = (was, is) else {
+                continue;
+            };
+            let words = format!("{name}{what}: {} → {}", number(was), number(is));
+            if is_more(was, is) {
+                self.less_exact.push(words);
+            } else if is_less(was, is) {
+                self.more_exact.push(words);
+            }
+        }
+        if let (Some(was), Some(is)) = (bytes(before), bytes(row)) {
+            let words = format!("{name}: {} → {}", memory(was), memory(is));
+            if is_more(was, is) {
+                self.larger.push(words);
+            } else if is_less(was, is) {
+                self.smaller.push(words);
+            }
+        }
+    }
+
     /// As a part of the index.
     pub(crate) fn text(&self) -> String {
         let mut out = vec![format!("## Since {}\n", self.of)];
@@ -94,8 +133,10 @@ impl Since {
             ("Promises that broke", &self.broken),
             ("Less exact", &self.less_exact),
             ("Slower", &self.slower),
+            ("More memory", &self.larger),
             ("More exact", &self.more_exact),
             ("Faster", &self.faster),
+            ("Less memory", &self.smaller),
         ] {
             if lines.is_empty() {
                 out.push(format!("- {what}: none"));
@@ -121,6 +162,8 @@ mod tests {
             setting: String::new(),
             case: case.to_owned(),
             error: Some(error),
+            error_p99: Some(0.5 * error),
+            bytes: Some(1000),
             is_kept,
             time: Some(TimeRecord {
                 cpu_s: cpu_s[1],
@@ -161,14 +204,35 @@ mod tests {
         let since = Since::between(&old, &new);
         assert_eq!(since.slower, ["made-up, m, slower: 2.00 × the time"]);
         assert_eq!(since.faster, ["made-up, m, faster: 0.50 × the time"]);
-        assert_eq!(since.less_exact, ["made-up, m, worse: 1.000e-1 → 3.000e-1"]);
-        assert_eq!(since.more_exact.len(), 1);
+        let worse = [
+            "made-up, m, worse: 1.000e-1 → 3.000e-1",
+            "made-up, m, worse, 99th percentile: 5.000e-2 → 1.500e-1",
+        ];
+        assert_eq!(since.less_exact, worse);
+        assert_eq!(since.more_exact.len(), 2);
+        assert!(since.larger.is_empty() && since.smaller.is_empty());
         assert_eq!(since.broken, ["made-up, m, worse"]);
         assert_eq!((since.n_compared, since.n_alone), (4, 2));
         let text = since.text();
         assert!(
             text.contains("- Slower: 1\n  - made-up, m, slower"),
             "{text}"
+        );
+        // Memory, and times of one process.
+        let mut alone = new.clone();
+        alone.rows[0].bytes = Some(2_000_000);
+        alone.rows[0].time = new.rows[0].time.map(|time| TimeRecord {
+            n_processes: 1,
+            ..time
+        });
+        let told = Since::between(&old, &alone);
+        assert_eq!(told.larger, ["made-up, m, slower: 1.0 kB → 2.00 MB"]);
+        let words = "made-up, m, slower (by quartiles of one process): 2.00 × the time";
+        assert_eq!(told.slower, [words]);
+        assert!(
+            told.text().contains("- More memory: 1\n"),
+            "{}",
+            told.text()
         );
         // Errors of another seed are no change.
         let other = Record { seed: 2, ..new };

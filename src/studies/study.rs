@@ -34,6 +34,9 @@ pub struct Findings {
     pub notes: Vec<String>,
     /// What costs grow with, where that is asked about: what a row's size counts.
     pub(crate) grows_with: Option<&'static str>,
+    /// What follows from times: done when rows are timed, and again when further processes have
+    /// timed them too.
+    pub(crate) judge: Option<fn(&mut [Row])>,
 }
 
 /// One method with one setting on one case.
@@ -73,6 +76,22 @@ impl Findings {
             plots,
             notes: notes.into_iter().map(Into::into).collect(),
             grows_with: None,
+            judge: None,
+        }
+    }
+
+    /// With ratios and verdicts that follow from times.
+    #[must_use]
+    pub(crate) fn judged(mut self, judge: fn(&mut [Row])) -> Self {
+        self.judge = Some(judge);
+        self.judge_times();
+        self
+    }
+
+    /// Draws from times what follows from them: they are known better now.
+    pub(crate) fn judge_times(&mut self) {
+        if let Some(judge) = self.judge {
+            judge(&mut self.rows);
         }
     }
 
@@ -161,6 +180,14 @@ impl Row {
         let is_known = value.is_finite();
         let text = is_known.then(|| format!("{value:.decimals$}"));
         self.with(column, text.unwrap_or_default())
+    }
+
+    /// Puts a cell in a further column, in place of what stood there.
+    pub(crate) fn set(&mut self, column: &'static str, cell: String) {
+        match self.more.iter_mut().find(|(name, _)| *name == column) {
+            Some((_, known)) => *known = cell,
+            None => self.more.push((column, cell)),
+        }
     }
 
     /// Whether the promise is kept; `None` without one. A missing or senseless error keeps none.

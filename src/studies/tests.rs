@@ -1,6 +1,6 @@
 //! The runner on studies made up for it: right, wrong, failing, panicking, endless.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::machine::Machine;
 use super::pareto::tests::row;
@@ -150,6 +150,40 @@ fn a_wrong_method_shows_up_as_wrong() {
 }
 
 #[test]
+fn no_file_of_a_report_holds_what_is_no_finite_number() {
+    let folder = ScratchFolder::made("finite");
+    let endless = |_: &mut Bench<'_>| {
+        let mut other = row("b", f64::INFINITY, 2.0);
+        other.size = Some(f64::NEG_INFINITY);
+        let endless = row("a", f64::NAN, 1.0)
+            .p99(f64::INFINITY)
+            .promised(f64::INFINITY)
+            .with("bound_db", f64::INFINITY)
+            .with("lost_db", format!("{:e}", f64::NEG_INFINITY))
+            .with("spread_db", f64::NAN);
+        let rows = vec![endless, other, row("c", 0.1, 1.0)];
+        Ok(Findings::new(rows, Vec::new(), Vec::<String>::new()))
+    };
+    let studies = [made_up("endless", endless)];
+    run_in(&folder, &studies, &CancelFlag::new());
+    let files = std::fs::read_dir(&folder)
+        .unwrap()
+        .map(|file| file.unwrap().path());
+    let is_text = |path: &PathBuf| path.extension().is_some_and(|kind| kind != "png");
+    let texts: Vec<PathBuf> = files.filter(is_text).collect();
+    assert_eq!(texts.len(), 5, "{texts:?}");
+    for path in texts {
+        let text = std::fs::read_to_string(&path).unwrap();
+        let mut words = text.split(|c: char| !c.is_alphanumeric() && !"+-.∞".contains(c));
+        let odd = words.find(|word| {
+            let is_no_number = |value: f64| !value.is_finite();
+            word.contains('∞') || word.parse().is_ok_and(is_no_number)
+        });
+        assert_eq!(odd, None, "{}", path.display());
+    }
+}
+
+#[test]
 fn the_table_holds_what_the_plot_shows() {
     let folder = ScratchFolder::made("runner");
     let studies = [made_up("made-up", one_is_wrong)];
@@ -205,7 +239,8 @@ fn a_page_says_what_was_asked_where_how_and_how_to_repeat_it() {
         "| seed | 7 |",
         "quick",
         "`selvedge report --out x --quick --seed 7`",
-        "Which way is best?",
+        "- [Made up](#made-up): Which way is best?\n- [Where and how](#where-and-how)\n",
+        "## Made up\n\nWhich way is best?",
         "Reference: a closed form.",
         "(made-up.csv)",
         "(made-up.png)",

@@ -1,7 +1,8 @@
 //! The files of a study: its tidy table (one row a method, setting and case, a column a quantity),
 //! plots as SVG and PNG. Each appears when it is whole.
 //!
-//! Numbers have shortest round-trip digits; what is not known is an empty cell.
+//! Numbers have shortest round-trip digits; what is not known is an empty cell, and so is what is
+//! no finite number.
 
 use std::path::Path;
 
@@ -104,8 +105,8 @@ fn csv_of(study: &Study, findings: &Findings, path: &Path) -> Result<String, Rep
     let mut table = TableWriter::new(Vec::new(), path, &header)?;
     for (row, is_on_front) in findings.rows.iter().zip(pareto(&findings.rows)) {
         table.text(&row.method).text(&row.setting).text(&row.case);
-        for number in [row.size, row.error, row.error_p99, row.promised] {
-            optional(&mut table, number);
+        for value in [row.size, row.error, row.error_p99, row.promised] {
+            number(&mut table, value);
         }
         optional(&mut table, row.is_kept());
         let timing = row.cost.map(|cost| {
@@ -113,18 +114,33 @@ fn csv_of(study: &Study, findings: &Findings, path: &Path) -> Result<String, Rep
             [cost.cpu_s, low_s, high_s, cost.wall_s]
         });
         for nth in 0..4 {
-            optional(&mut table, timing.map(|timing| timing[nth]));
+            number(&mut table, timing.map(|timing| timing[nth]));
         }
         optional(&mut table, row.cost.map(|cost| cost.n_repeats));
         optional(&mut table, row.cost.map(|cost| cost.n_processes()));
         optional(&mut table, row.bytes);
         optional(&mut table, is_on_front.map(Front::word));
         for name in &further {
-            table.text(row.further(name));
+            table.text(finite(row.further(name)));
         }
         table.end_row()?;
     }
     Ok(String::from_utf8_lossy(&table.finish()?).into_owned())
+}
+
+/// A number, where it is one: a bound that does not hold may be infinite.
+fn number(table: &mut TableWriter<Vec<u8>>, value: Option<f64>) {
+    optional(table, value.filter(|value| value.is_finite()));
+}
+
+/// A cell of words or a number, empty where it is `inf` or `NaN`, as which other programs take it
+/// for a text or for nothing.
+pub(super) fn finite(cell: &str) -> &str {
+    let is_no_number = |value: f64| !value.is_finite();
+    if cell.parse().is_ok_and(is_no_number) {
+        return "";
+    }
+    cell
 }
 
 fn optional(table: &mut TableWriter<Vec<u8>>, value: Option<impl std::fmt::Display>) {

@@ -122,6 +122,10 @@ fn wrong_profiles_are_refused_with_the_file() {
         (with_row("0.001,inf"), "height_um is \"inf\""),
         (with_row("0.0001,1"), ""),
         (
+            rows(2000, 1.0 / 230.0).replacen("0,0\n", "0,3.5e38\n", 1),
+            "row 1 of 2000: the height is 3.5e38 µm; check its unit",
+        ),
+        (
             rows(2000, 1.0 / 230.0).replace("height_um", "height_mm"),
             "unknown column \"height_mm\"",
         ),

@@ -1,5 +1,8 @@
-//! The command line itself: what is almost a command, one file named twice, streams, completions
-//! and manual pages.
+//! The command line itself: what is almost a command or a name, one file named twice, streams,
+//! tables as JSON, silence, signals, completions and manual pages.
+
+use std::process::Stdio;
+use std::time::{Duration, Instant};
 
 use crate::program::Lab;
 
@@ -19,6 +22,18 @@ fn what_is_almost_a_command_is_told_at_every_level() {
         ("textile shwo denim", "'show'"),
         ("render a.scene.toml --pth a.csv", "'--path'"),
         ("render a.scene.toml --path a.csv --method bandd", "banded"),
+        ("textile show silk-crpe", "did you mean silk-crepe?"),
+        ("textile spectra denin", "did you mean denim?"),
+        ("probe --surface denin --drop 1", "did you mean denim?"),
+        ("report --out r --only rendring", "did you mean rendering?"),
+        (
+            "experiment designs --show ranking-virtual-traget",
+            "did you mean ranking-virtual-target?",
+        ),
+        (
+            "experiment preview ranking-virtual-traget",
+            "did you mean ranking-virtual-target?",
+        ),
     ] {
         let said = lab.refuse(&words(line));
         assert!(said.contains(meant), "{line}: {said}");
@@ -50,6 +65,15 @@ fn one_file_for_two_results_and_a_result_over_its_source_are_refused() {
         let said = render(&format!("--out {source}"));
         assert!(said.contains("would overwrite"), "{said}");
     }
+    for band in ["a.csv,h.csv", "h.csv,a.csv"] {
+        let said = render(&format!("--band {band}"));
+        assert!(said.starts_with("--band would overwrite a.csv"), "{said}");
+    }
+    let said = render("--band x,x");
+    assert!(said.starts_with("--band and --band are both"), "{said}");
+    lab.write("page.txt", lab.read("a.csv"));
+    let said = lab.refuse(&words("figure a.scene.toml --path page.txt --out page"));
+    assert!(said.contains("would overwrite page.txt"), "{said}");
     let said = render("--out - --stats -");
     assert!(said.contains("both standard output"), "{said}");
     assert_eq!([lab.read("a.csv"), lab.read("a.scene.toml")], before);
@@ -130,4 +154,165 @@ fn shells_complete_commands_and_manuals_have_a_page_for_each() {
         lab.refuse(&["man", "file"])
             .contains("cannot make the folder")
     );
+}
+
+#[test]
+fn a_quiet_command_says_nothing_but_what_is_wrong() {
+    let lab = Lab::with_scene();
+    let probe = "probe --surface flat --stroke 0,0:10,0 --seconds 0.1 --out";
+    assert_ne!(lab.run(&words(&format!("{probe} a1.csv"))).err, "");
+    for line in [
+        format!("{probe} a2.csv --quiet"),
+        format!("-q {probe} a3.csv"),
+        format!("--quiet {probe} a4.csv"),
+    ] {
+        lab.print(&words(&line));
+    }
+    assert_eq!(lab.read("a1.csv"), lab.read("a4.csv"));
+    lab.refuse(&words("--quiet textile show nothing-of-the-kind"));
+}
+
+#[test]
+fn tables_are_told_as_json_too() {
+    let lab = Lab::with_scene();
+    let rows = |line: &str| -> Vec<serde_json::Value> {
+        serde_json::from_str(&lab.print(&words(line))).unwrap()
+    };
+    let textiles = rows("textile list --json");
+    assert_eq!(textiles.len(), 16);
+    let plain = lab.print(&["textile", "list"]);
+    for (row, line) in textiles.iter().zip(plain.lines()) {
+        let id = row["id"].as_str().unwrap();
+        assert!(
+            line.starts_with(id) && line.ends_with(row["name"].as_str().unwrap()),
+            "{line}"
+        );
+    }
+    let shown = rows("textile show denim --json");
+    let told = lab.print(&words("textile show denim"));
+    assert_eq!(shown.len(), told.lines().count());
+    for row in &shown {
+        assert!(told.contains(row["value"].as_str().unwrap()), "{row}");
+    }
+    let designs = rows("experiment designs --json");
+    assert_eq!(
+        designs.len(),
+        lab.print(&words("experiment designs")).lines().count()
+    );
+    assert!(
+        designs
+            .iter()
+            .any(|row| row["name"] == "ranking-virtual-target")
+    );
+    let preview = rows("experiment preview ranking-virtual-target --json");
+    let trials = preview.iter().find(|row| row["what"] == "trials").unwrap();
+    assert!(trials["value"].as_f64().unwrap() > 0.0);
+    let studies = rows("report --list --json");
+    let is_it = |row: &serde_json::Value| row["study"] == "stability";
+    assert!(studies.iter().any(is_it), "{studies:?}");
+    rows("bridge list --json --quiet")
+        .iter()
+        .for_each(|row| assert!(row["kind"].is_string()));
+    let simulate = "experiment simulate ranking-virtual-target --observers 1 --out logs";
+    assert_eq!(lab.run(&words(simulate)).code, 0);
+    let verified = rows("experiment verify logs --json");
+    assert!(verified.contains(&serde_json::json!({"what": "broken", "value": 0.0})));
+}
+
+#[cfg(unix)]
+#[test]
+fn scenes_and_heights_are_read_from_standard_input_and_waves_written_to_standard_output() {
+    let lab = Lab::with_scene();
+    let fed = |line: &str, text: &str| lab.run_on(&words(line), text);
+    let by_file = lab.print(&words("render a.scene.toml --path a.csv"));
+    let by_stream = fed("render - --path a.csv", &lab.read("a.scene.toml"));
+    assert_eq!((by_stream.code, by_stream.out), (0, by_file));
+    let wrong = fed("render - --path a.csv", "name = 1\n");
+    assert!(wrong.one_line().starts_with("-:1: "), "{wrong:?}");
+
+    lab.print(&words(
+        "render a.scene.toml --path a.csv --wav w.wav --hjif h.hjif",
+    ));
+    for (kind, file) in [("wav", "w.wav"), ("hjif", "h.hjif")] {
+        let line = format!("render a.scene.toml --path a.csv --{kind} -");
+        let printed = lab.command(&words(&line)).output().unwrap();
+        let written = std::fs::read(lab.path(file)).unwrap();
+        assert!(
+            printed.stdout == written,
+            "{kind}: {} bytes",
+            printed.stdout.len()
+        );
+    }
+    let heights: String = (0..64)
+        .map(|y| {
+            let cells = (0..64).map(|x| format!("{}", (x * y) % 7));
+            cells.collect::<Vec<_>>().join(" ") + "\n"
+        })
+        .collect();
+    lab.write("heights.txt", &heights);
+    let how = "--step-mm 0.1 --height-unit um --out";
+    let by_file = lab.run(&words(&format!("textile convert heights.txt {how} a.gsf")));
+    assert_eq!(by_file.code, 0, "{by_file:?}");
+    let by_stream = fed(&format!("textile convert - {how} b.gsf"), &heights);
+    assert_eq!(by_stream.code, 0, "{by_stream:?}");
+    let read = |name: &str| std::fs::read(lab.path(name)).unwrap();
+    assert!(read("a.gsf") == read("b.gsf"));
+}
+
+#[test]
+fn files_that_belong_together_appear_together_or_not_at_all() {
+    let lab = Lab::with_scene();
+    // The last of three files has no place.
+    lab.write("page.txt/taken", "");
+    let said = lab.refuse(&words("figure a.scene.toml --path a.csv --out page"));
+    assert!(said.contains("page.txt is a folder"), "{said}");
+    assert!(!lab.path("page.svg").exists() && !lab.path("page.png").exists());
+    lab.print(&words("figure a.scene.toml --path a.csv --out other"));
+    for ending in ["svg", "png", "txt"] {
+        assert!(lab.path(&format!("other.{ending}")).is_file(), "{ending}");
+    }
+    lab.write("man1/selvedge-textile.1/taken", "");
+    assert!(lab.refuse(&["man", "man1"]).contains("is a folder"));
+    assert!(!lab.path("man1/selvedge.1").exists());
+}
+
+/// A command that listens to no signal is ended by one as ever, but for what it had half written.
+#[cfg(unix)]
+#[test]
+fn a_signal_leaves_no_half_of_a_file() {
+    let lab = Lab::new();
+    // Two metres of cloth: millions of rows.
+    let row = |sample: u32| format!("{:.6},{}\n", f64::from(sample) / 230.0, sample % 7);
+    let rows: String = (0..460_000).map(row).collect();
+    lab.add_textile("long", |_| 0.0);
+    lab.write("textiles/long/warp.csv", format!("x_mm,height_um\n{rows}"));
+    let half_written = || {
+        let names = std::fs::read_dir(lab.path("out")).unwrap();
+        let names = names.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        names.filter(|name| name.ends_with(".part")).count()
+    };
+    lab.write("out/other.txt", "");
+    let line = "textile spectra long --library textiles --out out/spectra.csv";
+    for signal in ["HUP", "INT", "TERM"] {
+        let mut command = lab.command(&words(line));
+        let mut child = command.stderr(Stdio::piped()).spawn().unwrap();
+        let given_up = Instant::now() + Duration::from_secs(120);
+        while half_written() == 0 {
+            assert!(
+                child.try_wait().unwrap().is_none(),
+                "it ended before it wrote"
+            );
+            assert!(Instant::now() < given_up, "it writes nothing");
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        let kill = std::process::Command::new("kill")
+            .args([&format!("-{signal}"), &child.id().to_string()])
+            .status();
+        assert!(kill.unwrap().success());
+        let status = child.wait().unwrap();
+        let by = std::os::unix::process::ExitStatusExt::signal(&status);
+        assert!(by.is_some(), "{signal}: {status}");
+        assert_eq!(half_written(), 0, "{signal}");
+        assert!(!lab.path("out/spectra.csv").exists(), "{signal}");
+    }
 }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::super::output::OutFile;
 use super::super::terminal::{self, with_meter};
 use super::super::{CliError, output};
 
@@ -17,7 +18,7 @@ pub(crate) struct AnalyseArgs {
     logs: PathBuf,
     /// Folder for index.md, tables and figures; it is made where it is missing
     #[arg(long, value_name = "OUT")]
-    out: PathBuf,
+    out: OutFile,
     /// What chance begins with: starts of maps, permutations, draws of subjects
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
@@ -34,7 +35,7 @@ pub(crate) struct AnalyseArgs {
     /// New folder for the trials as a data set after BIDS, with scripts in R and Python that make
     /// its main table once more
     #[arg(long, value_name = "DIR")]
-    bids: Option<PathBuf>,
+    bids: Option<OutFile>,
 }
 
 /// Analyses the logs, and writes what was found.

@@ -4,40 +4,48 @@ use std::path::Path;
 
 use clap::Args;
 
-use super::super::{CliError, output};
+use super::super::output::{Cell, JsonArgs};
+use super::super::{CliError, output, usage};
 use selvedge_experiment::design::Design;
 
 /// Which designs to show.
 #[derive(Debug, Args)]
 pub(crate) struct DesignsArgs {
     /// Print the file of this design, to begin one's own with
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", conflicts_with = "json")]
     show: Option<String>,
+    #[command(flatten)]
+    how: JsonArgs,
 }
 
 /// Prints a line a design, or the file of one.
 pub(super) fn run(args: &DesignsArgs) -> Result<(), CliError> {
     let Some(name) = &args.show else {
-        return output::print(&table());
+        return list(&args.how);
     };
     let text = Design::shipped_text(name).ok_or_else(|| {
-        let known: Vec<&str> = Design::shipped_names().collect();
-        let what = format!("no design is called {name:?}; give {}", known.join(", "));
-        CliError::Input(what)
+        let mend = mend(name);
+        CliError::Input(format!("no design is called {name:?}; {mend}"))
     })?;
     output::print(text)
 }
 
-fn table() -> String {
-    let line = |name: &str| {
+fn list(how: &JsonArgs) -> Result<(), CliError> {
+    let row = |name: &str| {
         let design = Design::shipped(name)?;
         let (medium, method) = (design.medium.name(), design.composition.kind().name());
-        Some(format!(
-            "{name:<24}{medium:<12}{method:<14}{}\n",
-            design.title
-        ))
+        Some([name, medium, method, &design.title].map(Cell::text))
     };
-    Design::shipped_names().filter_map(line).collect()
+    let rows: Vec<_> = Design::shipped_names().filter_map(row).collect();
+    let columns = ["name", "medium", "method", "title"];
+    output::print_rows(how, columns, &rows, |[name, medium, method, title]| {
+        format!("{name:<24}{medium:<12}{method:<14}{title}\n")
+    })
+}
+
+/// What to give in place of a name that is not known.
+fn mend(name: &str) -> String {
+    usage::mend(name, &Design::shipped_names().collect::<Vec<_>>())
 }
 
 /// The design of a file, or of the program where no file has that name.
@@ -46,11 +54,10 @@ pub(super) fn design(named: &Path) -> Result<Design, CliError> {
         return Ok(Design::read(named)?);
     }
     named.to_str().and_then(Design::shipped).ok_or_else(|| {
-        let names: Vec<&str> = Design::shipped_names().collect();
+        let name = named.display().to_string();
+        let mend = mend(&name);
         CliError::Input(format!(
-            "there is no design {}; give a file, or one of {}",
-            named.display(),
-            names.join(", ")
+            "there is no design {name}, neither a file nor a name; {mend}"
         ))
     })
 }

@@ -1,9 +1,8 @@
 //! `selvedge experiment noise`: a noise that covers what contactors can be heard by.
 
-use std::path::PathBuf;
-
 use clap::Args;
 
+use super::super::output::OutFile;
 use crate::CliError;
 use crate::terminal::with_meter;
 use crate::usage::one_of;
@@ -14,7 +13,7 @@ use selvedge_experiment::{Colour, MaskingNoise};
 pub(crate) struct NoiseArgs {
     /// Where it is written: one channel of 16 bits at 48 kHz, for any player
     #[arg(long, value_name = "WAV")]
-    out: PathBuf,
+    out: OutFile,
     /// How long it lasts; without a fade it can be repeated without a seam
     #[arg(long, value_name = "MINUTES", default_value_t = 10,
         value_parser = clap::value_parser!(u16).range(1..=i64::from(MaskingNoise::MOST_MINUTES)))]

@@ -1,9 +1,10 @@
 //! `selvedge experiment plan`: what is settled before the first subject comes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::super::output::OutFile;
 use super::super::{CliError, output};
 use selvedge_experiment::Plan;
 use selvedge_foundation::files::FileError;
@@ -15,7 +16,7 @@ pub(crate) struct PlanArgs {
     design: PathBuf,
     /// File of the plan; sessions are held by the one in their folder that has its usual name
     #[arg(long, value_name = "PLAN.toml")]
-    out: Option<PathBuf>,
+    out: Option<OutFile>,
     /// How many people take part (as many as the design says)
     #[arg(long, value_name = "N")]
     subjects: Option<usize>,
@@ -37,8 +38,8 @@ pub(super) fn run(args: &PlanArgs) -> Result<(), CliError> {
         Some(&[low, high]) => Some([low, high]),
         _ => None,
     };
-    let usual = Plan::path(std::path::Path::new(""), &design);
-    let out = args.out.clone().unwrap_or(usual);
+    let usual = Plan::path(Path::new(""), &design);
+    let out = args.out.as_deref().map_or(usual, Path::to_path_buf);
     plan.check(&out)?;
     if out.exists() {
         return Err(FileError::Exists { path: out }.into());

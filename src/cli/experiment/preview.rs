@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::super::output::{Cell, JsonArgs};
 use super::super::{CliError, output};
 use selvedge_experiment::design::Design;
 use selvedge_experiment::{Preview, PreviewOptions};
@@ -23,6 +24,8 @@ pub(crate) struct PreviewArgs {
     /// What chance begins with
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    #[command(flatten)]
+    how: JsonArgs,
 }
 
 /// Prints it.
@@ -33,7 +36,37 @@ pub(super) fn run(args: &PreviewArgs) -> Result<(), CliError> {
         effect: args.effect,
         seed: args.seed,
     };
-    output::print(&described(&design, &Preview::of(&design, &options)?))
+    let preview = Preview::of(&design, &options)?;
+    let mut text = Some(described(&design, &preview));
+    let rows = figures(&design, &preview);
+    let columns = ["what", "value"];
+    output::print_rows(&args.how, columns, &rows, |_| {
+        text.take().unwrap_or_default()
+    })
+}
+
+/// The figures of what is described, for programs.
+fn figures(design: &Design, preview: &Preview) -> Vec<[Cell; 2]> {
+    let [played_s, answer_s] = preview.trial_s;
+    let mut rows = vec![
+        ("title", Cell::text(&design.title)),
+        ("method", Cell::text(design.composition.kind().name())),
+        ("trials", Cell::count(preview.n_trials)),
+        ("blocks", Cell::count(preview.n_blocks)),
+        ("practice", Cell::count(preview.n_practice)),
+        ("session_s", Cell::number(preview.duration_s)),
+        ("played_s", Cell::number(played_s)),
+        ("answer_s", Cell::number(answer_s)),
+        ("subjects", Cell::count(preview.n_subjects)),
+        ("power", Cell::number(preview.power.share)),
+        ("simulated_studies", Cell::count(preview.power.n_studies)),
+    ];
+    let uneven = preview.balance.iter().filter(|one| !one.is_even());
+    rows.extend(uneven.map(|one| ("not_even", Cell::text(one.what))));
+    let left_out = design.rules.exclusions().into_iter();
+    rows.extend(left_out.map(|rule| ("left_out", Cell::text(rule))));
+    let row = |(what, value)| [Cell::text(what), value];
+    rows.into_iter().map(row).collect()
 }
 
 fn described(design: &Design, preview: &Preview) -> String {

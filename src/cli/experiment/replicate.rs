@@ -1,10 +1,9 @@
 //! `selvedge experiment replicate`: the papers' experiments by simulated observers, printed beside
 //! obtained.
 
-use std::path::PathBuf;
-
 use clap::Args;
 
+use super::super::output::OutFile;
 use super::super::terminal::with_meter;
 use super::super::{CliError, output};
 
@@ -16,7 +15,7 @@ use selvedge_foundation::quantity::fixed;
 pub(crate) struct ReplicateArgs {
     /// Folder for index.md, tables and figures; it is made where it is missing
     #[arg(long, value_name = "OUT")]
-    out: PathBuf,
+    out: OutFile,
     /// What all chance begins with
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,

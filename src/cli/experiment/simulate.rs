@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::super::output::OutFile;
 use crate::terminal::with_meter_until;
 use crate::usage::one_of;
 use crate::{CliError, output, signals};
@@ -24,7 +25,7 @@ pub(crate) struct SimulateArgs {
     seed: u64,
     /// Folder for the logs; one that is there already is never overwritten
     #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    out: OutFile,
     /// What observers go by: nothing, the levels of both bands, these and their balance, variation
     /// over the textile or over directions, or all
     #[arg(long, default_value = "level",

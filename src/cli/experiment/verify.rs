@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::super::output::{Cell, JsonArgs};
 use super::super::terminal::with_meter;
 use super::super::{CliError, output};
 use selvedge_experiment::session::Verified;
@@ -13,6 +14,8 @@ use selvedge_experiment::session::Verified;
 pub(crate) struct VerifyArgs {
     /// Folder of the logs, each with its .json beside it
     logs: PathBuf,
+    #[command(flatten)]
+    how: JsonArgs,
 }
 
 /// Prints a line for everything that is not as it was written.
@@ -20,11 +23,6 @@ pub(super) fn run(args: &VerifyArgs) -> Result<(), CliError> {
     let verified = with_meter("verifying", |progress| {
         Verified::of_folder(&args.logs, progress)
     })??;
-    let lines: Vec<String> = verified
-        .breaks
-        .iter()
-        .map(|one| format!("{one}\n"))
-        .collect();
     let (n_logs, n_open, n_broken) = (verified.n_logs, verified.n_open, verified.n_broken);
     if n_logs == 0 {
         let what = format!("{} holds no session", args.logs.display());
@@ -35,10 +33,21 @@ pub(super) fn run(args: &VerifyArgs) -> Result<(), CliError> {
         0 => String::new(),
         n => format!(", {n} not closed: trials are missing"),
     };
-    output::print(&format!(
-        "{}{n_logs} logs, {n_broken} broken{open}\n",
-        lines.concat()
-    ))?;
+    let broken = verified.breaks.iter();
+    let broken = broken.map(|one| [Cell::text("break"), Cell::text(one.to_string())]);
+    let counts = [("logs", n_logs), ("broken", n_broken), ("open", n_open)];
+    let counts = counts.map(|(what, n)| [Cell::text(what), Cell::count(n)]);
+    let rows: Vec<_> = broken.chain(counts).collect();
+    output::print_rows(
+        &args.how,
+        ["what", "value"],
+        &rows,
+        |[what, value]| match what.to_string().as_str() {
+            "break" => format!("{value}\n"),
+            "logs" => format!("{n_logs} logs, {n_broken} broken{open}\n"),
+            _ => String::new(),
+        },
+    )?;
     if n_broken == 0 {
         return Ok(());
     }

@@ -1,9 +1,8 @@
 //! `selvedge friction evaluate`: what is finished of all methods on all splits, as one table.
 
-use std::path::PathBuf;
-
 use clap::Args;
 
+use super::super::output::OutFile;
 use super::data::DataArgs;
 use super::table::{Row, SHOWN, table};
 use super::{folder, pages, run_timed};
@@ -22,7 +21,7 @@ use selvedge_friction::{
 pub(crate) struct EvaluateArgs {
     /// Folder of runs, as train fills it; the table goes there, too
     #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    out: OutFile,
     /// Splits to tell of
     #[arg(long, num_args = 1.., default_values = ["A", "B", "C", "D"],
         value_parser = one_of(Split::ALL.map(|split| (split.letter(), split))))]

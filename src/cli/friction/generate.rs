@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::super::output::OutFile;
 use super::data::brightness;
 use crate::CliError;
 use crate::output::{TableOut, write_bytes};
@@ -31,14 +32,14 @@ pub(crate) struct GenerateArgs {
     share: f64,
     /// The table `x_mm,mu` (standard output if none is named)
     #[arg(long, value_name = "F.csv")]
-    out: Option<PathBuf>,
+    out: Option<OutFile>,
     /// A folder of a textile that feels like it from now on: friction.csv is written there, and how
     /// far it may be off into textile.toml
     #[arg(long, value_name = "DIR")]
     textile: Option<PathBuf>,
     /// A picture of the spectrogram: a column a centimetre, rows up to 6.4 cycles/mm
     #[arg(long, value_name = "S.png")]
-    spectrogram: Option<PathBuf>,
+    spectrogram: Option<OutFile>,
 }
 
 pub(super) fn run(args: &GenerateArgs) -> Result<(), CliError> {

@@ -1,9 +1,8 @@
 //! `selvedge friction train`: networks that learn on procedural cloth.
 
-use std::path::PathBuf;
-
 use clap::Args;
 
+use super::super::output::OutFile;
 use super::data::DataArgs;
 use super::{folder, run_timed};
 use crate::CliError;
@@ -19,7 +18,7 @@ use selvedge_friction::{
 pub(crate) struct TrainArgs {
     /// Folder of runs
     #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    out: OutFile,
     /// The network: ours, ours-adversarial or frictgan
     #[arg(long, default_value = "ours",
         value_parser = one_of(Method::ALL.map(|method| (method.word(), method))))]

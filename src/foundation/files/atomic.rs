@@ -1,35 +1,61 @@
-//! Files written so that a crash leaves the old one or the new one.
+//! Files written so that a crash leaves the old ones or the new ones.
 
 use std::fs::{self, File};
 use std::io::{self, Write as _};
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::path::Path;
 
 use super::FileError;
+use super::staged::{Staged, Unfinished, move_all, unfinished};
 
 /// Writes `bytes` to a new file beside `path` and then moves it there, on disk before it returns.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    let staged = staged_path(path);
-    let write = || -> io::Result<()> {
-        let mut file = File::create(&staged)?;
-        file.write_all(bytes)?;
-        file.sync_all()?;
-        fs::rename(&staged, path)
+    let staged = Staged::new(path);
+    let write = || {
+        let mut out = staged.create()?;
+        out.write_all(bytes)?;
+        Ok(out)
     };
-    write().map_err(|error| {
-        // The staged file is of no use to anybody; if it cannot go, the first error matters more.
-        drop(fs::remove_file(&staged));
-        FileError::write(path)(error)
-    })
+    let out = write().map_err(FileError::write(path))?;
+    staged.finish(out)
 }
 
-/// A name that no other process and no other thread of this one stages under.
-pub(super) fn staged_path(path: &Path) -> PathBuf {
-    static STAGED: AtomicU64 = AtomicU64::new(0);
-    let nth = STAGED.fetch_add(1, Ordering::Relaxed);
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}-{nth}.part", std::process::id()));
-    path.with_file_name(name)
+/// Writes files of one folder, by their names in it, so that all are there or none is. A folder
+/// that is not there is filled beside its place and then moved to it; in one that is, all files
+/// are on disk before the first takes its place, and the others follow in this order.
+pub fn write_folder(folder: &Path, files: &[(&str, &[u8])]) -> Result<(), FileError> {
+    let failed = FileError::write(folder);
+    if !folder.exists() {
+        let parent = folder.parent().unwrap_or(folder);
+        fs::create_dir_all(parent).map_err(&failed)?;
+        let whole = Unfinished::beside(folder);
+        fs::create_dir(whole.path()).map_err(&failed)?;
+        for (name, bytes) in files {
+            write_synced(&whole.path().join(name), bytes)?;
+        }
+        return move_all(vec![(whole, folder.to_owned())]);
+    }
+    let mut all = Vec::new();
+    for (name, bytes) in files {
+        let path = folder.join(name);
+        let staged = Unfinished::beside(&path);
+        write_synced(staged.path(), bytes)?;
+        all.push((staged, path));
+    }
+    move_all(all)
+}
+
+/// Writes a file of a folder that may not be there yet, to the disk.
+fn write_synced(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    let write = || -> io::Result<()> {
+        let _all = unfinished();
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder)?;
+        }
+        let mut file = File::create(path)?;
+        file.write_all(bytes)?;
+        file.sync_all()
+    };
+    write().map_err(FileError::write(path))
 }
 
 #[cfg(test)]
@@ -45,5 +71,26 @@ mod tests {
         write_atomic(&path, b"two").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"two");
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn all_files_of_a_folder_are_written_or_none_is() {
+        let scratch = ScratchFolder::made("folder");
+        let folder = scratch.join("new/cloth");
+        // A file cannot hold another one: the second write fails.
+        let wrong: [(&str, &[u8]); 2] = [("a", b"1"), ("a/b", b"2")];
+        assert!(write_folder(&folder, &wrong).is_err());
+        assert_eq!(fs::read_dir(scratch.join("new")).unwrap().count(), 0);
+        write_folder(&folder, &[("a", b"1"), ("below/b", b"2")]).unwrap();
+        assert_eq!(fs::read(folder.join("below/b")).unwrap(), b"2");
+        assert_eq!(fs::read_dir(scratch.join("new")).unwrap().count(), 1);
+
+        let wrong: [(&str, &[u8]); 2] = [("below/b", b"3"), ("a/b", b"4")];
+        assert!(write_folder(&folder, &wrong).is_err());
+        assert_eq!(fs::read(folder.join("below/b")).unwrap(), b"2", "as it was");
+        write_folder(&folder, &[("a", b"5")]).unwrap();
+        assert_eq!(fs::read(folder.join("a")).unwrap(), b"5");
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 2, "nothing beside");
+        assert_eq!(fs::read_dir(folder.join("below")).unwrap().count(), 1);
     }
 }

@@ -34,7 +34,7 @@ mod table;
 mod xml;
 
 pub use archive::Archive;
-pub use atomic::write_atomic;
+pub use atomic::{write_atomic, write_folder};
 pub use bytes::{ByteReader, Number, decoded, latin1};
 pub use digits::push_number;
 pub use edited_keys::{EditedKeys, KeyPlace};
@@ -54,6 +54,7 @@ pub use picture::{PICTURE_ENDINGS, Rgb8Image, Rgb16Image, encode_png_rgba, is_pi
 pub use place::{free_bytes, is_accessible};
 pub use read::{read, read_known, read_text};
 pub use staged::Staged;
+pub(crate) use staged::abandon_unfinished;
 pub use table::{Table, TableWriter};
 pub use xml::{visit_elements, xml_text};
 

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::RenderError;
 use selvedge_foundation::named;
+use selvedge_textile::surface::{Direction, Surface};
 
 named! {
     /// How amplitudes are computed.
@@ -112,6 +113,36 @@ impl ErrorBound {
             floor,
         }
     }
+
+    /// An error as a share of what the bound allows, above 1 where it is broken: of an amplitude
+    /// and the reference's, both before gains, on a surface that gives `unfiltered_um` unfiltered.
+    pub fn share_of(&self, unfiltered_um: f64, [a, a_ref]: [f64; 2]) -> f64 {
+        let of_level = a_ref * (10.0_f64.powf(self.level_db / 20.0) - 1.0);
+        let off = (a - a_ref).abs();
+        let of_amplitude = if off > 0.0 {
+            off / (of_level + self.floor * unfiltered_um)
+        } else {
+            0.0
+        };
+        if a_ref >= 1e-3 * unfiltered_um {
+            of_amplitude.max((20.0 * (a / a_ref).log10()).abs() / self.level_db)
+        } else {
+            of_amplitude
+        }
+    }
+}
+
+/// T of [`ErrorBound`], µm: `√(2 Σ_d Σ_k P)`, the largest over points, and over the directions
+/// along either thread.
+pub fn unfiltered_um(surface: &Surface) -> f64 {
+    let of_direction = |direction: &Direction| {
+        let spectra = surface.spectra(*direction);
+        let powers = (0..spectra.n_points()).map(|point| spectra.powers_um2(point).iter().sum());
+        powers.fold(0.0, f64::max)
+    };
+    let of_axis = |both: &[Direction]| both.iter().map(of_direction).fold(0.0, f64::max);
+    let sum: f64 = Direction::ALL.chunks(2).map(of_axis).sum();
+    (2.0 * sum).sqrt()
 }
 
 #[cfg(test)]

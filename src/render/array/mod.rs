@@ -22,7 +22,7 @@ mod trace;
 
 pub use drive::DriveSynth;
 pub use frame::DisplayFrame;
-pub use method::{Accuracy, ErrorBound, Method, UnknownMethod};
+pub use method::{Accuracy, ErrorBound, Method, UnknownMethod, unfiltered_um};
 pub use reading::{ContactorReading, Reading};
 pub use response::{PointSpread, TextileResponse, VelocityMap};
 pub use selvedge_foundation::numerics::to_single as single;
@@ -229,6 +229,11 @@ impl ArrayRenderer {
         if let Some(frame) = self.frames.get_mut(display) {
             frame.mask(is_felt);
         }
+    }
+
+    /// The amplitude factors of a textile's gains, by band.
+    pub(crate) fn gain_factors(&self, textile: usize) -> [f64; 2] {
+        self.gains.factors(textile)
     }
 
     /// Gives every contactor of one display these amplitudes [A40, A320] in the frames of the last

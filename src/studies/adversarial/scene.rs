@@ -10,10 +10,10 @@ use selvedge_foundation::geometry::{Displacement, Frame, Point, Rotation, Veloci
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_render::RenderScene;
 use selvedge_render::array::{
-    Accuracy, ArrayRenderer, ContactInspector, ContactorReading, ErrorBound, Method,
+    Accuracy, ArrayRenderer, ContactInspector, ContactorReading, ErrorBound, Method, unfiltered_um,
 };
 use selvedge_render::scene::Pose;
-use selvedge_textile::surface::{BIN_SPACING_PER_MM, Direction, HeightMap, Profile, Surface};
+use selvedge_textile::surface::{BIN_SPACING_PER_MM, HeightMap, Profile, Surface};
 use selvedge_textile::tactile::{Band, Filters, MAX_FREQUENCY_HZ, MAX_SPEED_MM_PER_S};
 
 /// Length of a profile and side of a relief, mm.
@@ -100,7 +100,7 @@ impl Case {
         };
         let unfiltered_um = unfiltered_um(&scene.textiles[0].surface);
         let pairs = found.iter().flatten().zip(exact.iter().flatten());
-        let shares = pairs.map(|(a, exact)| share_of(&bound, unfiltered_um, [*a, *exact]));
+        let shares = pairs.map(|(a, exact)| bound.share_of(unfiltered_um, [*a, *exact]));
         Ok(shares.fold(0.0, f64::max))
     }
 
@@ -176,31 +176,6 @@ impl Case {
         let surface = Surface::areal(&map, 0.0);
         Ok(Arc::new(surface.map_err(|(_, error)| failed(error))?))
     }
-}
-
-/// An error as a share of what the bound allows, of an amplitude and the reference's.
-fn share_of(bound: &ErrorBound, unfiltered_um: f64, [a, exact]: [f64; 2]) -> f64 {
-    let allowed =
-        exact * (10.0_f64.powf(bound.level_db / 20.0) - 1.0) + bound.floor * unfiltered_um;
-    let off = (a - exact).abs();
-    let of_amplitude = if off > 0.0 { off / allowed } else { 0.0 };
-    if exact >= 1e-3 * unfiltered_um {
-        of_amplitude.max((20.0 * (a / exact).log10()).abs() / bound.level_db)
-    } else {
-        of_amplitude
-    }
-}
-
-/// `√(2 Σ_d Σ_k P)`, the largest over points, and over the directions along either thread.
-fn unfiltered_um(surface: &Surface) -> f64 {
-    let of_direction = |direction: &Direction| {
-        let spectra = surface.spectra(*direction);
-        let powers = (0..spectra.n_points()).map(|point| spectra.powers_um2(point).iter().sum());
-        powers.fold(0.0, f64::max)
-    };
-    let of_axis = |both: &[Direction]| both.iter().map(of_direction).fold(0.0, f64::max);
-    let sum: f64 = Direction::ALL.chunks(2).map(of_axis).sum();
-    (2.0 * sum).sqrt()
 }
 
 /// The amplitudes of all contactors by the formula, sums with Neumaier's compensation.

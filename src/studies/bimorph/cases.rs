@@ -109,7 +109,7 @@ const IMAGES: i32 = 4000;
 /// Displacement of the pin over the drive, µm/V, at the instants at which the drive is sampled and
 /// then held for `hold_s`: `Σ_m H(f_m) · hold(f_m)` over the line and its images
 /// `f_m = f + m/hold_s`, with `hold(f) = e^{−iπf·hold_s} sin(πf·hold_s)/(πf·hold_s)`.
-pub(super) fn held_response(model: &ContactorModel, frequency_hz: f64, hold_s: f64) -> Complex {
+pub(crate) fn held_response(model: &ContactorModel, frequency_hz: f64, hold_s: f64) -> Complex {
     let image = |m: i32| {
         let image_hz = frequency_hz + f64::from(m) / hold_s;
         let half_turn = PI * image_hz * hold_s;

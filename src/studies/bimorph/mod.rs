@@ -9,12 +9,12 @@ mod cases;
 mod emulator;
 mod limits;
 
-pub(crate) use cases::{CARRIERS_HZ, ContactorStep, SAMPLE_S, propagator};
+pub(crate) use cases::{CARRIERS_HZ, ContactorStep, SAMPLE_S, held_response, propagator};
 
 use super::chart::{chart, lines_by};
 use super::readable::largest;
 use super::{Bench, Findings, ReportError, Row, Study, Timing};
-use cases::{Case, Step, held_response};
+use cases::{Case, Step};
 use selvedge_chart::{Axis, Chart};
 use selvedge_device::ContactorModel;
 use selvedge_foundation::numerics::ode::StepMethod;

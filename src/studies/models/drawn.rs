@@ -7,17 +7,16 @@ use selvedge_textile::Library;
 use selvedge_textile::surface::{HeightMap, Probe, Surface};
 use selvedge_textile::tactile::{Filters, Levels};
 
-/// Fine, coarse, ridged by their twist, and knitted.
-const CLOTHS: [&str; 4] = [
-    "polyamide-taffeta",
-    "jute-plain",
-    "silk-crepe",
-    "polyamide-jersey",
+/// Fine, coarse, ridged by their twist, and knitted; and how near levels are where yarns are drawn
+/// as models of the library are, dB. Fine threads are wide for a wire 0.02 mm from point to point.
+const CLOTHS: [(&str, f64); 4] = [
+    ("polyamide-taffeta", 0.75),
+    ("jute-plain", 0.2),
+    ("silk-crepe", 0.65),
+    ("polyamide-jersey", 0.25),
 ];
 /// The distance at which models of the library are drawn, mm: levels there are promised.
 const OWN_MM: f64 = 0.02;
-/// Levels at that distance are within this, dB.
-const PROMISED_DB: f64 = 0.5;
 
 /// Error of both levels by the distance of a relief's points, and what drawing costs.
 pub(crate) const STUDY: Study = Study {
@@ -36,7 +35,7 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
     let cloths = &CLOTHS[..bench.effort.pick(1, CLOTHS.len())];
     let finest_mm = bench.effort.pick(0.5, 0.25) * OWN_MM;
     let mut rows = Vec::new();
-    for (done, id) in cloths.iter().enumerate() {
+    for (done, (id, promised_db)) in cloths.iter().enumerate() {
         bench.step(done as f64 / cloths.len() as f64, id)?;
         let source = library.manifest(id)?.source;
         let truth = if bench.wants_errors() {
@@ -58,18 +57,24 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
                 let off_db = [0, 1].map(|band| found[band] - truth[band]);
                 row = row
                     .error(off_db[0].abs().max(off_db[1].abs()))
-                    .promised((step_mm <= OWN_MM).then_some(PROMISED_DB))
+                    .promised((step_mm <= OWN_MM).then_some(*promised_db))
                     .number("off_40_hz_db", 3, off_db[0])
                     .number("off_320_hz_db", 3, off_db[1]);
             }
             rows.push(row);
         }
     }
-    let notes = [format!(
-        "Levels at 100 mm/s of the tester's wire without noise. A model of the library is drawn on \
-         points {OWN_MM} mm apart, which is promised to be within {PROMISED_DB} dB; what is only \
-         looked at is drawn more coarsely."
-    )];
+    let notes = [
+        format!(
+            "Levels at 100 mm/s of the tester's wire without noise. A model of the library is \
+             drawn on points {OWN_MM} mm apart, which is promised cloth by cloth; what is only \
+             looked at is drawn more coarsely."
+        ),
+        "Where filaments are hardly wider than that distance, the error of 320 Hz falls with the \
+         distance itself, not with its square: yarns meet in cusps, which points cut off. Against \
+         yarns without points it is about a third more than against the finest points here."
+            .to_owned(),
+    ];
     Ok(Findings::new(rows, Vec::new(), notes))
 }
 

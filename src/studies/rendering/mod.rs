@@ -7,11 +7,13 @@ mod known;
 mod study_table;
 mod this_scene;
 mod total;
+mod turning;
 
 pub use this_scene::{Running, ThisSceneStudy};
 
 use study_table::table_rows;
 pub(crate) use total::STUDY as TOTAL;
+pub(crate) use turning::STUDY as TURNING;
 
 use super::{Bench, Findings, ReportError, Row, Study, textiles};
 use selvedge_foundation::numerics::Random;

@@ -1,14 +1,13 @@
 //! The study of total cost: preparing and all ticks together, for explorations of a tick to an hour
-//! on every scene of the program, and what turning costs.
+//! on every scene of the program.
 //!
 //! What `auto` chose stands beside the cheapest method that keeps the same budget.
 
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use crate::textiles::{exeter, placed, scene_of, shipped};
-use crate::{Bench, Findings, ReportError, Row, Study, Timing};
-use selvedge_foundation::geometry::{Point, Velocity};
+use crate::{Bench, Findings, ReportError, Row, Study};
+use selvedge_foundation::geometry::Point;
 use selvedge_render::array::{Accuracy, ArrayRenderer, Method};
 use selvedge_render::scene::{ExplorationPath, LoadedScene, PathRow, Pose, TICKS_PER_S};
 use selvedge_render::{RenderError, RenderScene};
@@ -42,10 +41,10 @@ pub(crate) const STUDY: Study = Study {
     name: "total-cost",
     chapter: "amplitudes",
     question: "What do preparing and all ticks of an exploration cost together, is auto about as \
-               cheap as the cheapest method, and what does a turning display cost?",
+               cheap as the cheapest method?",
     reference: "The cheapest method that keeps the same error budget.",
     error: ("more than the cheapest and a quarter", "ms"),
-    cost_of: "exploration, or tick",
+    cost_of: "exploration",
     run,
 };
 
@@ -55,15 +54,13 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
     for (nth, (name, text)) in SCENES.into_iter().enumerate() {
         let scene = RenderScene::of(&LoadedScene::from_toml(text, Path::new(name))?);
         for (length, (setting, n_ticks)) in lengths.iter().enumerate() {
-            let n_all = SCENES.len() * lengths.len() + 1;
+            let n_all = SCENES.len() * lengths.len();
             let done = (nth * lengths.len() + length) as f64 / n_all as f64;
             bench.step(done, &format!("{name}, {setting}"))?;
             let exploration = Exploration::of(&scene, *n_ticks)?;
             rows.extend(exploration.rows(bench, (setting, name))?);
         }
     }
-    bench.step(0.95, "turning")?;
-    rows.extend(turning(bench)?);
     let (share, ms) = MOST_OVER;
     let notes = [
         format!(
@@ -80,7 +77,7 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
          surfaces is left out: its library is no part of the program."
             .to_owned(),
     ];
-    Ok(Findings::new(rows, Vec::new(), notes))
+    Ok(Findings::new(rows, Vec::new(), notes).judged(judge))
 }
 
 /// A scene and a way over it.
@@ -154,34 +151,14 @@ impl<'a> Exploration<'a> {
             work
         });
         let timed = bench.time_in_turn(1, works.into());
-        let timed = timed
-            .into_iter()
-            .zip(methods)
-            .map(|((timing, multiple), method)| {
-                let factor = share_of(method).1;
-                (method, timing.times(factor), multiple * factor)
-            });
-        let timed: Vec<(Method, Timing, f64)> = timed.collect();
-        let is_fixed = |(method, ..): &&(Method, Timing, f64)| *method != Method::Auto;
-        let cheapest = timed
-            .iter()
-            .filter(is_fixed)
-            .min_by(|a, b| a.2.total_cmp(&b.2));
-        let own = timed.first().map_or(1.0, |(.., multiple)| *multiple);
-        let rows = timed.iter().map(|(method, timing, multiple)| {
-            let row = Row::of(method.name(), setting, case).cost(*timing);
-            let Some((name, least, of_auto)) = cheapest.filter(|_| *method == Method::Auto) else {
-                return row.number("times_auto", 2, multiple / own);
-            };
-            let (ratio, least_ms) = (own / of_auto, 1e3 * least.cpu_s);
-            let over_ms = (ratio - 1.0) * least_ms;
-            let (share, most_ms) = MOST_OVER;
-            row.error((over_ms - share * least_ms).max(0.0))
-                .promised(most_ms)
-                .with("used", used.name())
-                .with("cheapest", name.name())
-                .number("times_cheapest", 2, ratio)
-                .number("over_cheapest_ms", 2, over_ms)
+        let rows = timed.into_iter().zip(methods).map(|((timing, _), method)| {
+            let row = Row::of(method.name(), setting, case);
+            let row = row.cost(timing.times(share_of(method).1));
+            if method == Method::Auto {
+                row.with("used", used.name())
+            } else {
+                row
+            }
         });
         Ok(rows.collect())
     }
@@ -191,51 +168,36 @@ impl<'a> Exploration<'a> {
     }
 }
 
-/// What a tick costs where a display turns, beside one that does not, once tables are made.
-fn turning(bench: &Bench<'_>) -> Result<Vec<Row>, ReportError> {
-    let scene = scene_of(vec![placed(&shipped("denim")?, Point::default())], exeter());
-    let poses = |angular_rad_per_s: f64| -> Vec<Pose> {
-        let pose = |n: u32| {
-            let share = f64::from(n) / TICKS_PER_S;
-            Pose {
-                position: Point::new(20.0 + 80.0 * share, 20.0 + 60.0 * share),
-                angle_deg: (angular_rad_per_s * share).to_degrees(),
-                velocity: Velocity::new(80.0, 60.0),
-                angular_rad_per_s,
-                ..Pose::default()
-            }
-        };
-        (0..40).map(pose).collect()
-    };
-    let motions = [("straight", poses(0.0)), ("turning at 2 rad/s", poses(2.0))];
-    let methods = [Method::Reference, Method::Banded, Method::Table];
-    let mut named = Vec::new();
-    let mut works: Vec<Box<dyn FnMut()>> = Vec::new();
-    for (setting, poses) in &motions {
-        for method in methods {
-            let mut renderer = ArrayRenderer::prepare(&scene, method, &Accuracy::default())?;
-            named.push((method, *setting));
-            works.push(Box::new(move || {
-                for pose in poses {
-                    renderer.tick(std::slice::from_ref(pose));
-                }
-            }));
-        }
+/// What `auto` costs beside the cheapest of the others, from the times of all processes.
+fn judge(rows: &mut [Row]) {
+    let is_same = |a: &Row, b: &Row| a.setting == b.setting && a.case == b.case;
+    for group in rows.chunk_by_mut(is_same) {
+        // What was not timed has no verdict.
+        let _: Option<()> = judge_one(group);
     }
-    let timed = bench.time_in_turn(motions[0].1.len(), works);
-    let multiples: Vec<f64> = timed.iter().map(|(_, multiple)| *multiple).collect();
-    let rows =
-        timed
-            .iter()
-            .zip(&named)
-            .enumerate()
-            .map(|(nth, ((timing, own), (method, setting)))| {
-                let row = Row::of(method.name(), *setting, "one textile").cost(*timing);
-                let first_of_motion = nth - nth % methods.len();
-                row.number("times_straight", 2, own / multiples[nth % methods.len()])
-                    .number("times_reference", 3, own / multiples[first_of_motion])
-            });
-    Ok(rows.collect())
+}
+
+fn judge_one(group: &mut [Row]) -> Option<()> {
+    let (auto, others) = group.split_first_mut()?;
+    let own = auto.cost?;
+    let times_auto = |row: &Row| Some(row.cost?.over(&own).middle);
+    for row in others.iter_mut() {
+        let times_auto = times_auto(row)?;
+        row.set("times_auto", format!("{times_auto:.2}"));
+    }
+    let timed = others
+        .iter()
+        .filter_map(|row| Some((row, times_auto(row)?)));
+    let (cheapest, times_auto) = timed.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let (ratio, least_ms) = (1.0 / times_auto, 1e3 * cheapest.cost?.cpu_s);
+    let over_ms = (ratio - 1.0) * least_ms;
+    let (share, most_ms) = MOST_OVER;
+    auto.error = Some((over_ms - share * least_ms).max(0.0));
+    auto.promised = Some(most_ms);
+    auto.set("cheapest", cheapest.method.clone());
+    auto.set("times_cheapest", format!("{ratio:.2}"));
+    auto.set("over_cheapest_ms", format!("{over_ms:.2}"));
+    Some(())
 }
 
 #[cfg(test)]
@@ -247,7 +209,7 @@ mod tests {
     fn every_scene_and_length_has_auto_beside_the_cheapest() {
         let findings = quick(&STUDY, 1);
         let n_lengths = LENGTHS.len() - 1;
-        assert_eq!(findings.rows.len(), SCENES.len() * n_lengths * 4 + 6);
+        assert_eq!(findings.rows.len(), SCENES.len() * n_lengths * 4);
         let of_auto: Vec<&Row> = (findings.rows.iter())
             .filter(|row| row.method == "auto")
             .collect();
@@ -258,9 +220,33 @@ mod tests {
             let is_still = row.setting == "1 tick";
             assert!(!is_still || row.further("used") == "reference", "{row:?}");
         }
-        let turning = findings.rows.iter().filter(|row| row.case == "one textile");
-        for row in turning {
-            assert!(row.further_number("times_straight") > Some(0.0), "{row:?}");
-        }
+    }
+
+    #[test]
+    fn verdicts_follow_the_times_of_all_processes() {
+        use crate::Timing;
+        let row = |method: &str, first_s: f64, others_s: [f64; 2]| {
+            let others: Vec<_> = others_s.iter().map(|s| (*s, *s, 2)).collect();
+            let timing = Timing::of(&mut [first_s], &mut [first_s]).and(&others);
+            Row::of(method, "1 s", "a scene").cost(timing)
+        };
+        // By the first process alone banded would be the cheapest by far.
+        let mut rows = [
+            row("auto", 2.0, [2.0, 2.2]),
+            row("reference", 9.0, [9.0, 9.0]),
+            row("banded", 0.2, [3.0, 3.3]),
+            row("table", 1.6, [1.6, 1.76]),
+        ];
+        judge(&mut rows);
+        assert_eq!(rows[0].further("cheapest"), "table");
+        assert_eq!(rows[0].further("times_cheapest"), "1.25");
+        assert_eq!(rows[2].further("times_auto"), "1.50");
+        assert_eq!(
+            (rows[0].promised, rows[0].is_kept()),
+            (Some(5.0), Some(true))
+        );
+        rows[3] = row("table", 1.0, [1.0, 1.1]);
+        judge(&mut rows);
+        assert_eq!(rows[0].is_kept(), Some(false), "{:?}", rows[0]);
     }
 }

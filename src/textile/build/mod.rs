@@ -7,14 +7,13 @@ mod preview;
 
 pub use preview::RecipePreview;
 
-use std::fs;
 use std::path::Path;
 
 use crate::error::TextileError;
 use crate::manifest::{AppearanceKeys, MANIFEST, Manifest};
 use crate::recipe::{ProfileFiles, profiles_of_files};
 use crate::surface::Direction;
-use selvedge_foundation::files::{FileError, read_text, write_atomic};
+use selvedge_foundation::files::{FileError, read_text, write_folder};
 
 /// The name of the picture.
 pub(crate) const PICTURE: &str = "appearance.png";
@@ -93,10 +92,8 @@ pub fn make(recipe: &str, path: &Path, folder: &Path) -> Result<Manifest, Textil
     Manifest::from_toml(&read_text(&manifest)?, &manifest)
 }
 
-/// Writes the files of a textile into a folder, in their order.
+/// Writes the files of a textile into a folder, in their order, all or none.
 pub fn write(files: &[BuiltFile], folder: &Path) -> Result<(), FileError> {
-    fs::create_dir_all(folder).map_err(FileError::write(folder))?;
-    files
-        .iter()
-        .try_for_each(|file| write_atomic(&folder.join(&file.name), &file.bytes))
+    let named = files.iter().map(|file| (&*file.name, &*file.bytes));
+    write_folder(folder, &named.collect::<Vec<_>>())
 }

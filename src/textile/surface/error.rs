@@ -1,5 +1,9 @@
 //! Why heights are no surface.
 
+/// The highest height, up or down, µm: far above anything physical, and so far below what single
+/// precision holds that no power, gain or amplitude of a surface overflows.
+pub(super) const MAX_HEIGHT_UM: f64 = 1e13;
+
 /// What can be wrong with a surface.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SurfaceError {
@@ -27,6 +31,19 @@ pub enum SurfaceError {
     /// A height is NaN or infinite.
     #[error("row {row} of {n_rows}: the height is {height_um}; fill or cut missing points")]
     NotFinite {
+        /// The row, from 1.
+        row: usize,
+        /// How many rows there are.
+        n_rows: usize,
+        /// The height found, µm.
+        height_um: f64,
+    },
+    /// A height that no surface has.
+    #[error(
+        "row {row} of {n_rows}: the height is {height_um:e} µm; check its unit, heights end at \
+         1e13 µm (ten thousand kilometres)"
+    )]
+    TooHigh {
         /// The row, from 1.
         row: usize,
         /// How many rows there are.

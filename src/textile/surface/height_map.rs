@@ -3,6 +3,7 @@
 //! Columns run along u (the warp), rows along w (the weft); row 0 is at the lowest w. What is
 //! missing stays marked as missing when it is filled for analysis.
 
+use super::error::MAX_HEIGHT_UM;
 use super::tracks::Tracks;
 use super::{Direction, Probe, Profile, ProfileSet, SurfaceError};
 use selvedge_foundation::numerics::{Grid, Random, to_index};
@@ -22,7 +23,7 @@ impl HeightMap {
     /// A map of heights in µm, `step_mm` apart along u and w. Infinite heights count as missing.
     ///
     /// # Errors
-    /// A step outside 0.0005–0.5 mm; no height at all.
+    /// A step outside 0.0005–0.5 mm; a height beyond ten thousand kilometres; no height at all.
     pub fn new(mut heights_um: Grid<f64>, step_mm: [f64; 2]) -> Result<Self, SurfaceError> {
         for step_mm in step_mm {
             if !(0.0005..=0.5).contains(&step_mm) {
@@ -33,6 +34,14 @@ impl HeightMap {
             if !height.is_finite() {
                 *height = f64::NAN;
             }
+        }
+        let is_too_high = |height: &f64| height.abs() > MAX_HEIGHT_UM;
+        if let Some(index) = heights_um.values().iter().position(is_too_high) {
+            return Err(SurfaceError::TooHigh {
+                row: index / heights_um.width() + 1,
+                n_rows: heights_um.height(),
+                height_um: heights_um.values()[index],
+            });
         }
         if heights_um.values().iter().all(|height| height.is_nan()) {
             return Err(SurfaceError::AllMissing);
@@ -330,6 +339,13 @@ mod tests {
         let nothing = Grid::filled(4, 4, f64::NAN);
         let refused = HeightMap::new(nothing, [0.1, 0.1]).unwrap_err();
         assert_eq!(refused, SurfaceError::AllMissing);
+        let mut spiked = Grid::filled(4, 4, 0.0);
+        spiked.row_mut(2)[1] = -1e20;
+        let refused = HeightMap::new(spiked, [0.1, 0.1]).unwrap_err().to_string();
+        assert!(
+            refused.starts_with("row 3 of 4: the height is -1e20 µm"),
+            "{refused}"
+        );
         for step_mm in [0.0, -1.0, f64::NAN, 0.6] {
             assert!(HeightMap::new(Grid::filled(4, 4, 0.0), [0.1, step_mm]).is_err());
         }

@@ -4,6 +4,7 @@
 
 use super::SurfaceError;
 use super::band::without_long_waves;
+use super::error::MAX_HEIGHT_UM;
 use super::friction::mean_deviation;
 
 /// The step of a Kawabata recording at 230 samples a mm; steps within 0.1 % of it count as it.
@@ -24,17 +25,27 @@ impl Profile {
     /// exactly that.
     ///
     /// # Errors
-    /// A step outside 0.0005–0.5 mm, a height that is not finite.
+    /// A step outside 0.0005–0.5 mm, a height that is not finite or beyond
+    /// ten thousand kilometres.
     pub fn new(step_mm: f64, heights_um: Vec<f64>) -> Result<Self, SurfaceError> {
         if !(0.0005..=0.5).contains(&step_mm) {
             return Err(SurfaceError::Step { step_mm });
         }
-        if let Some(index) = heights_um.iter().position(|height| !height.is_finite()) {
-            let (row, n_rows) = (index + 1, heights_um.len());
-            return Err(SurfaceError::NotFinite {
-                row,
-                n_rows,
-                height_um: heights_um[index],
+        let is_wrong = |height: &f64| !(-MAX_HEIGHT_UM..=MAX_HEIGHT_UM).contains(height);
+        if let Some(index) = heights_um.iter().position(is_wrong) {
+            let (row, n_rows, height_um) = (index + 1, heights_um.len(), heights_um[index]);
+            return Err(if height_um.is_finite() {
+                SurfaceError::TooHigh {
+                    row,
+                    n_rows,
+                    height_um,
+                }
+            } else {
+                SurfaceError::NotFinite {
+                    row,
+                    n_rows,
+                    height_um,
+                }
             });
         }
         let is_kes_step = (step_mm - KES_STEP_MM).abs() <= 0.001 * KES_STEP_MM;
@@ -149,6 +160,15 @@ mod tests {
                 .starts_with("row 3 of 3: the height is NaN"),
             "{error}"
         );
+        for height in [1.1e13, -3.4e38, 1e300] {
+            let error = Profile::new(0.01, vec![0.0, height]).unwrap_err();
+            let text = error.to_string();
+            assert!(
+                text.starts_with("row 2 of 2: the height is ") && text.contains("check its unit"),
+                "{text}"
+            );
+        }
+        assert!(Profile::new(0.01, vec![1e13, -1e13]).is_ok());
         for step_mm in [0.0, 0.0004, 0.51, -1.0, f64::NAN, f64::INFINITY] {
             let error = Profile::new(step_mm, vec![]).unwrap_err();
             assert!(matches!(error, SurfaceError::Step { .. }), "{error}");

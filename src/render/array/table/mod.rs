@@ -113,7 +113,9 @@ impl TableEvaluator {
                 self.turning(textile, each, amplitudes_um, counters);
             }
         }
-        let [low_factor, high_factor] = factors.map(|factor| single(factor * unit_um));
+        // A gain of many hundred dB must not make a number of silence: 0 · ∞ is none.
+        let [low_factor, high_factor] =
+            factors.map(|factor| single(factor * unit_um).min(f32::MAX));
         contacts.for_each_owned(amplitudes_um, |_, [low, high]| {
             *low = low.sqrt() * low_factor;
             *high = high.sqrt() * high_factor;

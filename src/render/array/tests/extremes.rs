@@ -107,6 +107,28 @@ fn flat_tiny_and_huge_heights_are_silent_or_computed() {
 }
 
 #[test]
+fn silence_stays_silent_under_any_gain_that_can_be_written() {
+    // At rest along the weft, and beside the textile.
+    let mut scene = alone(&weave());
+    scene.tuning.gain_db = 800.0;
+    let places = [
+        pose([3.0, 3.0], [0.0, 0.0]),
+        pose([-300.0, 3.0], [90.0, 0.0]),
+    ];
+    for method in METHODS {
+        let mut live = renderer(&scene, method);
+        for at in &places {
+            assert!(silent(&amplitudes(&mut live, at)), "{method:?}");
+        }
+        let loud = amplitudes(&mut live, &pose([3.0, 3.0], [130.0, 20.0]));
+        assert!(
+            loud.iter().flatten().all(|um| !um.is_nan()),
+            "{method:?}: {loud:?}"
+        );
+    }
+}
+
+#[test]
 fn senseless_gains_are_refused_and_keep_the_last() {
     let mut scene = alone(&weave());
     let at = pose([3.0, 3.0], [130.0, 20.0]);
@@ -276,6 +298,14 @@ fn a_replay_counts_times_and_measures_errors() {
             (45, 45, 24)
         );
         assert_eq!(stats.tick_median_ns, 100.0);
+        let unfiltered_um = unfiltered_um(&scene.textiles[0].surface);
+        assert_eq!(stats.unfiltered_um, Some(unfiltered_um));
+        let share = stats.bound_share.unwrap();
+        let is_exact = stats.method_used == Method::Reference;
+        assert!(
+            share <= 1.0 && (share > 0.0) != is_exact,
+            "{method:?}: {share}"
+        );
         let error = stats.level_error.unwrap();
         assert!(
             error.max_db <= 0.05 && error.max_share_below < 6e-6,
