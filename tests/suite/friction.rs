@@ -130,9 +130,15 @@ fn a_short_training_is_kept_told_and_put_into_a_table() {
         told.contains(&format!("besides: {name}: spectrum ")),
         "{told}"
     );
-    // What the folder lacks is taken from the runs that are shipped.
-    let told = lab.print(&evaluate[..evaluate.len() - 1]);
+    // What the folder lacks is taken from the runs that are shipped, and the best is named.
+    let of_shipped = ["friction", "evaluate", "--out", "runs", "--splits", "A"];
+    let told = lab.print(&[&of_shipped[..], &["--only-finished"]].concat());
     assert!(told.contains("\nridge "), "{told}");
+    assert!(told.contains("\nbest spectrum: ours, 3.9"), "{told}");
+    assert!(
+        told.contains("\nbest level: class spectrum (is told the family), 6.55 %"),
+        "{told}"
+    );
     assert!(lab.read("runs/table.csv").lines().count() > 9);
     // A row a family.
     assert_eq!(lab.read("runs/families.csv").lines().count(), 9);

@@ -242,6 +242,7 @@ mod tests {
         for (trace, said) in [
             ("x_mm,mu\n0,0.3\n0.1,0.3\n0.5,0.3\n", "even steps"),
             ("x_mm,mu\n", "even steps"),
+            ("", "this file is empty"),
             ("x_mm,mu\n1,0.3\n0,0.3\n", "even steps"),
             ("0.3\nwool\n", "\"wool\" is no number"),
             ("0.3\nNaN\n", "\"NaN\" is no number"),
@@ -252,7 +253,7 @@ mod tests {
             assert!(refused.contains("velvet.csv"), "{refused}");
         }
         // Numbers that are no friction are refused with the fabric's name when it is learnt from.
-        for trace in ["", "-0.3\n-0.3\n"] {
+        for trace in ["\n", "-0.3\n-0.3\n"] {
             put(&folder, trace);
             let one = fabrics(&folder, &[]).unwrap().swap_remove(0);
             let refused = Taken::of_fabrics(&[one.clone(), one.clone(), one]).unwrap_err();

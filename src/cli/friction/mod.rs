@@ -51,7 +51,7 @@ fn run_timed(
     let is_whole = !run.is_begun();
     let start_s = thread_cpu_seconds();
     let scores = run.run(taken, progress, &mut |said| terminal::line(said))?;
-    let cpu_s = is_whole.then(|| ((thread_cpu_seconds() - start_s) * 10.0).round() / 10.0);
+    let cpu_s = is_whole.then(|| ((thread_cpu_seconds() - start_s) * 1e3).round() / 1e3);
     KeptRun::of(run, &scores, cpu_s).keep(run.folder)?;
     Ok(scores)
 }

@@ -10,8 +10,8 @@
 //!   16, 32 and 64, and its kernels are 4 × 4 and 4 × 3 where theirs are 4 × 4 and 3 × 3;
 //! - answers start from the mean magnitude of each bin (theirs has to find that the mean is 108),
 //!   with no rectifier at the end while it learns: what is below 0 is cut off when it is asked;
-//! - the critic has 16 to 128 channels where theirs has 64 to 512, halves frames once and bins three
-//!   times where theirs halves frames twice and bins three times, with smaller kernels;
+//! - the critic has 16 to 128 channels where theirs has 64 to 512, and halves frames once where
+//!   theirs halves them twice (bins three times both), with smaller kernels;
 //! - the critic's five steps are on one batch, whose pictures are encoded once;
 //! - the rate of learning is ten times theirs and falls to a hundredth by half a cosine, over the
 //!   four rounds that ten minutes have room for, where theirs stays the same for 200;

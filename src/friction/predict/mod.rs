@@ -80,8 +80,8 @@ impl PredictedFriction {
         spectra()
     }
 
-    /// Log magnitudes as a picture: the lowest `n_bins` bins upward, a column a frame, from 0 at the
-    /// lower of two ends to 1 at the upper.
+    /// Log magnitudes as a picture: the lowest `n_bins` bins upward, a column a frame, from 0 at
+    /// the lower of two ends to 1 at the upper.
     pub fn shades(log_magnitudes: &Grid<f32>, n_bins: usize, [low, high]: [f64; 2]) -> Grid<f64> {
         let n_bins = n_bins.min(log_magnitudes.width());
         Grid::from_fn(log_magnitudes.height(), n_bins, |frame, row| {
