@@ -166,11 +166,10 @@ fn broken(study: &Study, findings: &Findings, out: &mut Vec<String>) {
 fn about_text(about: &About<'_>, out: &mut Vec<String>) {
     let (machine, options) = (about.machine, about.options);
     let effort = match options.effort {
-        Effort::Quick => {
-            "quick: fewer cases and repeats, two studies at a time where two cores are"
-        }
+        Effort::Quick => "quick: fewer cases and repeats",
         Effort::Full => "full",
     };
+    let effort = format!("{effort}; two studies at a time where two cores are");
     let build = if machine.is_debug {
         "without optimisation: **times say little**"
     } else {

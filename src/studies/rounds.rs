@@ -32,7 +32,7 @@ pub fn times_alone(
     cancel: &CancelFlag,
 ) -> Result<String, ReportError> {
     let found: Mutex<Vec<Option<_>>> = Mutex::new(studies.iter().map(|_| None).collect());
-    side_by_side(n_at_a_time(effort), studies, |nth, study| {
+    side_by_side(n_at_a_time(), studies, |nth, study| {
         let mut unheard = |_: f64, _: &str| {};
         let mut progress = Progress::new(&mut unheard, cancel.clone());
         let mut bench = Bench::new(effort, seed, &mut progress).again();

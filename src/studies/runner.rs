@@ -16,6 +16,7 @@ use super::record::{self, Record};
 use super::rounds;
 use super::since::Since;
 use super::{Bench, Effort, Findings, ReportError, Row, Study, index, write};
+use selvedge_foundation::numerics::n_threads;
 use selvedge_foundation::progress::{CancelFlag, Progress};
 
 /// What a report is to hold, and where it goes.
@@ -159,11 +160,10 @@ pub fn choose(studies: Vec<Study>, only: &[String]) -> Result<Vec<Study>, Report
     Ok(studies.into_iter().filter(is_wanted).collect())
 }
 
-/// Studies at work at a time. A quick report lets two cores work where there are two, each of them
-/// timed by its own thread; of a full one nothing else runs beside what is timed.
-pub(super) fn n_at_a_time(effort: Effort) -> usize {
-    let n_cores = thread::available_parallelism().map_or(1, usize::from);
-    effort.pick(n_cores.min(2), 1)
+/// Studies at work at a time: two cores work where there are two, each study timed by its own
+/// thread.
+pub(super) fn n_at_a_time() -> usize {
+    n_threads().min(2)
 }
 
 /// Hands out studies in their order, so many at a time, each with its place, until they are all
@@ -266,7 +266,7 @@ pub fn run<'a>(
         of_first: if again.is_some() { FIRST } else { 1.0 },
         failed: None,
     });
-    side_by_side(n_at_a_time(options.effort), studies, |nth, study| {
+    side_by_side(n_at_a_time(), studies, |nth, study| {
         let mut hear = |share: f64, doing: &str| lock(&making).hear(nth, share, doing);
         hear(0.0, "");
         let mut progress = Progress::new(&mut hear, cancel.clone());
