@@ -194,7 +194,7 @@ fn about_text(about: &About<'_>, out: &mut Vec<String>) {
         ("program", program),
         ("commit", commit),
         ("seed", options.seed.to_string()),
-        ("effort", effort.to_owned()),
+        ("effort", effort),
         ("date", about.date.to_owned()),
         ("to repeat it", command),
     ] {
