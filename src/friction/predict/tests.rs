@@ -67,7 +67,7 @@ fn what_is_said_to_hold_for_95_of_100_cloths_holds_for_90_to_99_of_them() {
     let predictor = Predictor::shipped().unwrap();
     let mut n_levels = 0.0;
     let mut of_bands = [[0.0; 2]; N_BANDS];
-    // What is said was found on every second: those between were not looked at.
+    // What is said was found on every second: these are those between.
     let others: Vec<_> = held_back().iter().skip(1).step_by(2).collect();
     for example in &others {
         let found = together(&predictor.each(&example.looks));
