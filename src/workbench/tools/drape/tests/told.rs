@@ -35,7 +35,7 @@ fn the_second_finger_goes_where_the_second_display_is() {
     // The workspace is 260 mm wide, the cloth 200 mm.
     for x_mm in [150.0, 155.0, 160.0] {
         let mut tap = desk.workbench.shell.tap.lock().unwrap();
-        let stamp = desk.workbench.bench.stamp();
+        let stamp = desk.workbench.bench.clock.stamp();
         let place = selvedge_foundation::geometry::Point::new(x_mm, 120.0);
         let at = tap.screen(place).unwrap();
         let pixel = [at.x, at.y].map(f64::from);
