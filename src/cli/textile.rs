@@ -14,9 +14,9 @@ use super::textile_models::{self, LearnArgs};
 use super::{CliError, output, usage};
 
 use selvedge_foundation::quantity::fixed;
-use selvedge_textile::Library;
 use selvedge_textile::surface::{BIN_SPACING_PER_MM, Direction, Representation, Surface};
 use selvedge_textile::tactile::{Filters, Levels};
+use selvedge_textile::{Library, Textile};
 
 /// What to do with textiles.
 #[derive(Debug, Subcommand)]
@@ -176,6 +176,20 @@ fn select(library: &Library) -> Result<(), CliError> {
 
 fn show(library: &Library, id: &str, how: &JsonArgs) -> Result<(), CliError> {
     let textile = library.load(id)?;
+    let own = described(&textile, id)?.into_iter().map(|(key, value)| {
+        let line = format!("{key:14}{value}\n");
+        ([key, &value].map(Cell::text), line)
+    });
+    let all = own.chain(textile_kes::figures(&textile.manifest().measured));
+    let (rows, lines): (Vec<_>, Vec<String>) = all.unzip();
+    let mut lines = lines.into_iter();
+    output::print_rows(how, ["what", "value"], &rows, |_| {
+        lines.next().unwrap_or_default()
+    })
+}
+
+/// What there is to say of a textile: what, and its value.
+fn described(textile: &Textile, id: &str) -> Result<Vec<(&'static str, String)>, CliError> {
     let manifest = textile.manifest();
     let levels = Levels::of(textile.surface(), &Filters::default());
     let n_points = Direction::ALL.map(|d| shape(textile.surface().spectra(d).shape()));
@@ -229,16 +243,7 @@ fn show(library: &Library, id: &str, how: &JsonArgs) -> Result<(), CliError> {
             .map(|note| ("fall-back", note)),
     );
     rows.retain(|(_, value)| !value.is_empty());
-    let own = rows.into_iter().map(|(key, value)| {
-        let line = format!("{key:14}{value}\n");
-        ([key, &value].map(Cell::text), line)
-    });
-    let all = own.chain(textile_kes::figures(&manifest.measured));
-    let (rows, lines): (Vec<_>, Vec<String>) = all.unzip();
-    let mut lines = lines.into_iter();
-    output::print_rows(how, ["what", "value"], &rows, |_| {
-        lines.next().unwrap_or_default()
-    })
+    Ok(rows)
 }
 
 /// Where a surface's spectra come from.

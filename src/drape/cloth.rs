@@ -276,8 +276,10 @@ impl Cloth {
             self.rests_s + step_s
         };
         // The formula of second order would look back across the event.
-        let fingers = self.system.fingers.iter_mut();
-        let is_new = fingers.fold(false, |is_new, finger| finger.has_come() || is_new);
+        let mut is_new = false;
+        for finger in &mut self.system.fingers {
+            is_new |= finger.has_come();
+        }
         self.n_past = if is_new { 0 } else { (self.n_past + 1).min(2) };
     }
 

@@ -150,7 +150,7 @@ mod tests {
     use crate::{Baseline, Lesson, Method, Split};
     use std::fs;
 
-    fn run<'a>(contestant: Contestant, folder: &'a Path) -> Run<'a> {
+    fn run(contestant: Contestant, folder: &Path) -> Run<'_> {
         Run {
             contestant,
             split: Split::Cloths,

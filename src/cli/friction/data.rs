@@ -214,9 +214,8 @@ mod tests {
     fn a_trace_of_places_has_their_scale_and_one_of_numbers_the_one_that_is_given() {
         let folder = ScratchFolder::made("mine");
         let mu = |at: i32| 0.4 + 0.01 * f64::from(at % 5);
-        let places: String = (0..700)
-            .map(|at| format!("{},{}\n", 3.0 + f64::from(at) / 12.5, mu(at)))
-            .collect();
+        let place = |at| format!("{},{}\n", 3.0 + f64::from(at) / 12.5, mu(at));
+        let places = (0..700).map(place).collect::<Vec<_>>().concat();
         put(&folder, &format!("x_mm,mu\n{places}"));
         let found = &fabrics(&folder, &[]).unwrap()[0];
         assert_eq!((found.name.as_str(), found.px_per_mm), ("velvet", 10.0));
@@ -224,8 +223,8 @@ mod tests {
         assert!((found.samples_per_mm - 12.5).abs() < 1e-9);
         assert_eq!(found.trace, (0..700).map(mu).collect::<Vec<_>>());
         // As HapTex has them: a number a line, blank lines between.
-        let numbers: String = (0..700).map(|at| format!("{}\n\n", mu(at))).collect();
-        put(&folder, &numbers);
+        let numbers: Vec<String> = (0..700).map(|at| format!("{}\n\n", mu(at))).collect();
+        put(&folder, &numbers.concat());
         for (more, samples_per_mm) in [
             (&[] as &[&str], 12.9),
             (&["--samples-per-mm", "12.5"], 12.5),

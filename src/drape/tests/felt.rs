@@ -127,14 +127,7 @@ fn a_taut_cloth_rubbed_at_a_constant_velocity_is_felt_as_a_flat_one() {
 
 /// What is felt of a taut cloth against the same lying flat, in the worst case, dB.
 fn off_db(rub: Rub) -> f64 {
-    let text = TAUT
-        .replace("[26, 26]", &format!("[{}, {}]", rub.n, rub.n))
-        .replace(
-            "_percent = 0.01",
-            &format!("_percent = {}", rub.emt_percent),
-        );
-    let scene = DrapeScene::from_text(&text, Path::new("taut.drape.toml")).unwrap();
-    let mut drape = Drape::new(&scene, Some(rub.integrator), Some(rub.step_s)).unwrap();
+    let (scene, mut drape) = taut_by(rub);
     let rendered = scene.render_scene().unwrap();
     let accuracy = Accuracy::default();
     let mut hung = ArrayRenderer::prepare(&rendered, Method::Reference, &accuracy).unwrap();
@@ -157,10 +150,7 @@ fn off_db(rub: Rub) -> f64 {
             drape.step(&[hand]).unwrap();
         }
         drape.tick_contacts((0, tick_s), &mut contacts);
-        let moved = contacts
-            .iter()
-            .flatten()
-            .any(|contact| contact.velocity_mm_per_s != [0.0; 2]);
+        let moved = touched(&contacts).any(|(_, one)| one.velocity_mm_per_s != [0.0; 2]);
         // While it is pressed by steps that damp nothing it dances.
         let is_still = tick <= 16 && (tick > 10 || rub.integrator != Integrator::Explicit);
         assert!(!is_still || !moved, "{tick}: it presses, and nothing slips");
@@ -169,11 +159,7 @@ fn off_db(rub: Rub) -> f64 {
             continue;
         }
         // The flat display is where the pad is: its lag behind the hand is that of its coupling.
-        let touching = contacts
-            .iter()
-            .enumerate()
-            .find_map(|(nth, one)| Some((nth, (*one)?)));
-        let (contactor, contact) = touching.expect("it touches");
+        let (contactor, contact) = touched(&contacts).next().expect("it touches");
         let offset = felt.contactor_position(contactor) - felt.position();
         let [x, y] = rub.velocity_mm_per_s;
         let pose = Pose {
@@ -183,20 +169,33 @@ fn off_db(rub: Rub) -> f64 {
             ..Pose::default()
         };
         let expected = &flat.tick(&[pose])[0];
-        for (contactor, contact) in contacts.iter().enumerate() {
-            for band in 0..2 {
-                let (a, b) = (
-                    felt.amplitude_um(contactor)[band],
-                    expected.amplitude_um(contactor)[band],
-                );
-                if contact.is_some() && b > 1e-3 {
-                    let db = (20.0 * (a / b).log10()).abs();
-                    worst_db = worst_db.max(db);
-                    n_compared += 1;
-                }
+        for (contactor, _) in touched(&contacts) {
+            let pair = [&felt, expected].map(|frame| frame.amplitude_um(contactor));
+            for (a, b) in pair[0].into_iter().zip(pair[1]).filter(|(_, b)| *b > 1e-3) {
+                worst_db = worst_db.max((20.0 * (a / b).log10()).abs());
+                n_compared += 1;
             }
         }
     }
     assert!(n_compared > 200, "{n_compared}");
     worst_db
+}
+
+/// The contactors that touch, and what.
+fn touched(contacts: &[Option<MaterialContact>]) -> impl Iterator<Item = (usize, MaterialContact)> {
+    let all = contacts.iter().enumerate();
+    all.filter_map(|(nth, one)| Some((nth, (*one)?)))
+}
+
+/// The hung cloth and its scene.
+fn taut_by(rub: Rub) -> (DrapeScene, Drape) {
+    let text = TAUT
+        .replace("[26, 26]", &format!("[{}, {}]", rub.n, rub.n))
+        .replace(
+            "_percent = 0.01",
+            &format!("_percent = {}", rub.emt_percent),
+        );
+    let scene = DrapeScene::from_text(&text, Path::new("taut.drape.toml")).unwrap();
+    let drape = Drape::new(&scene, Some(rub.integrator), Some(rub.step_s)).unwrap();
+    (scene, drape)
 }

@@ -19,8 +19,9 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     staged.finish(out)
 }
 
-/// Writes files of one folder, by their names in it, so that all are there or none is. A folder
-/// that is not there is filled beside its place and then moved to it; in one that is, all files
+/// Writes files of one folder, by their names in it, so that all are there or none is.
+///
+/// A folder that is not there is filled beside its place and then moved to it; in one that is, all files
 /// are on disk before the first takes its place, and the others follow in this order.
 pub fn write_folder(folder: &Path, files: &[(&str, &[u8])]) -> Result<(), FileError> {
     let failed = FileError::write(folder);
@@ -32,7 +33,7 @@ pub fn write_folder(folder: &Path, files: &[(&str, &[u8])]) -> Result<(), FileEr
         for (name, bytes) in files {
             write_synced(&whole.path().join(name), bytes)?;
         }
-        return move_all(vec![(whole, folder.to_owned())]);
+        return move_all(&[(whole, folder.to_owned())]);
     }
     let mut all = Vec::new();
     for (name, bytes) in files {
@@ -41,7 +42,7 @@ pub fn write_folder(folder: &Path, files: &[(&str, &[u8])]) -> Result<(), FileEr
         write_synced(staged.path(), bytes)?;
         all.push((staged, path));
     }
-    move_all(all)
+    move_all(&all)
 }
 
 /// Writes a file of a folder that may not be there yet, to the disk.

@@ -24,7 +24,7 @@ pub(super) fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
 
 /// Removes all that is not whole and then does `end`, before which nothing new begins: the program
 /// is about to die.
-pub fn abandon_unfinished(end: impl FnOnce()) {
+pub(crate) fn abandon_unfinished(end: impl FnOnce()) {
     let all = unfinished();
     all.iter().for_each(|path| remove(path));
     end();
@@ -67,7 +67,7 @@ impl Drop for Unfinished {
 }
 
 /// Moves what is whole to its places, in this order; a signal waits until all are there.
-pub(super) fn move_all(whole: Vec<(Unfinished, PathBuf)>) -> Result<(), FileError> {
+pub(super) fn move_all(whole: &[(Unfinished, PathBuf)]) -> Result<(), FileError> {
     let all = unfinished();
     let move_one = |(staged, place): &(Unfinished, PathBuf)| {
         fs::rename(staged.path(), place).map_err(FileError::write(place))

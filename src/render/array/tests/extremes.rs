@@ -260,14 +260,11 @@ fn where_tables_would_not_fit_another_method_takes_over() {
 #[test]
 fn a_replay_counts_times_and_measures_errors() {
     let scene = scene_of(vec![placed(&weave(), [0.0, 0.0], 0.0)], exeter());
-    let ticks = (0..50_u64).map(|n| {
-        let along = n as f64 / 40.0;
-        PathRow {
-            t_s: along,
-            position: Point::new(30.0 + 60.0 * along, 30.0),
-            angle_deg: 0.0,
-            velocity: Some(Velocity::new(60.0, 5.0 * along)),
-        }
+    let ticks = (0..50_u64).map(|n| n as f64 / 40.0).map(|t_s| PathRow {
+        t_s,
+        position: Point::new(30.0 + 60.0 * t_s, 30.0),
+        angle_deg: 0.0,
+        velocity: Some(Velocity::new(60.0, 5.0 * t_s)),
     });
     let path = ExplorationPath::new(ticks.collect()).unwrap();
     let mut now_ns = 0;
@@ -293,10 +290,8 @@ fn a_replay_counts_times_and_measures_errors() {
             }
         };
         let stats = replay(&what, &path, &mut clock, &mut sink).unwrap();
-        assert_eq!(
-            (n_frames, stats.counters.ticks, stats.n_contactors),
-            (45, 45, 24)
-        );
+        let counted = (n_frames, stats.counters.ticks, stats.n_contactors);
+        assert_eq!(counted, (45, 45, 24));
         assert_eq!(stats.tick_median_ns, 100.0);
         let unfiltered_um = unfiltered_um(&scene.textiles[0].surface);
         assert_eq!(stats.unfiltered_um, Some(unfiltered_um));

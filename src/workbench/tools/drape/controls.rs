@@ -335,6 +335,15 @@ fn show_hand(ui: &mut Ui, draping: &mut Draping, has_second: bool) {
             "The scene has one display: a second one (Scene, Display) has a finger of its own";
         note(ui, words, Tone::Wrong);
     }
+    show_openings(ui, draping);
+    let (motion, at) = (&draping.motion, draping.look.cloth);
+    let frame = motion.frame_at(draping.look.looked_at_s);
+    let facts = motion.facts.cloths.get(at);
+    let has_touch = facts.is_none_or(|facts| facts.has_touch);
+    show_felt(ui, frame.and_then(|frame| frame.cloths.get(at)), has_touch);
+}
+
+fn show_openings(ui: &mut Ui, draping: &mut Draping) {
     if let Some(grasp) = &mut draping.hands.grasp {
         let ink = Palette::in_ui(ui).text;
         let [least, most] = OPENINGS_MM;
@@ -359,14 +368,6 @@ fn show_hand(ui: &mut Ui, draping: &mut Draping, has_second: bool) {
             *value = new.unwrap_or(*value);
         }
     }
-    let (motion, at) = (&draping.motion, draping.look.cloth);
-    let frame = motion.frame_at(draping.look.looked_at_s);
-    let has_touch = motion
-        .facts
-        .cloths
-        .get(at)
-        .is_none_or(|facts| facts.has_touch);
-    show_felt(ui, frame.and_then(|frame| frame.cloths.get(at)), has_touch);
 }
 
 fn show_look(ui: &mut Ui, draping: &mut Draping) {

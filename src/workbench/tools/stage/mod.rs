@@ -202,7 +202,7 @@ impl Stage {
             input: self.senses.input(),
             has_keyboard: self.senses.has_keyboard,
             rings: &self.senses.rings,
-            is_still: self.options.is_still(),
+            options: &self.options,
         };
         let mut brush = Brush {
             painter: ui.painter().clone(),

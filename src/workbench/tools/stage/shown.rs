@@ -2,6 +2,7 @@
 
 use crate::bench::selection::Selection;
 use crate::bench::settings::preferences::Loudness;
+use crate::bench::stage::StageOptions;
 use crate::bench::trail::Trail;
 use crate::bench::view::{Cloth, EngineView, SceneView};
 use crate::kit::fingers::FingerRings;
@@ -31,8 +32,7 @@ pub(crate) struct Shown<'a> {
     pub(crate) has_keyboard: bool,
     /// Rings at fingers that hold no display.
     pub(crate) rings: &'a FingerRings,
-    /// Whether nothing moves that nobody moves.
-    pub(crate) is_still: bool,
+    pub(crate) options: &'a StageOptions,
 }
 
 /// The sign of how loud it is, and how it is read out.

@@ -56,7 +56,7 @@ pub(crate) fn show(ui: &mut Ui, brush: &mut Brush<'_>, shown: &Shown<'_>) -> Wis
     let ring = (brush.palette.faint, 8.0 * brush.layout.mm);
     (shown.rings).paint(&brush.painter, shown.machine.now_s(), ring);
     let fade = to_single(shown.machine.fade());
-    if fade > 0.0 && !shown.is_still {
+    if fade > 0.0 && !shown.options.is_still() {
         let veil = brush.palette.floor.gamma_multiply(fade);
         brush.painter.rect_filled(brush.layout.whole, 0, veil);
     }
@@ -129,7 +129,7 @@ fn show_watching(brush: &mut Brush<'_>, shown: &Shown<'_>) {
     let layout = brush.layout;
     let look = (layout.label, brush.palette.text);
     let [above, below] = halves(layout.row.shrink(8.0 * layout.unit));
-    if !shown.is_still {
+    if !shown.options.is_still() {
         brush.line(above, Align2::CENTER_CENTER, look, "Shown 160× slower.");
     }
     let Tally { n_guessed, .. } = shown.tally;
@@ -293,11 +293,11 @@ pub(crate) fn paint_felt(brush: &Brush<'_>, view: &ViewTransform, shown: &Shown<
         view.rect = view.rect.translate(up);
     }
     let ink = (shown.selection, None);
-    if has_ghost && !shown.is_still {
+    if has_ghost && !shown.options.is_still() {
         let slow = slowed(shown.live, shown.machine.now_s());
         return paint_display::paint(&painter, &view, &slow, ink);
     }
-    if !shown.is_still {
+    if !shown.options.is_still() {
         paint_display::paint_trail(&painter, &view, shown.trail.aged());
     }
     paint_display::paint(&painter, &view, shown.live, ink);

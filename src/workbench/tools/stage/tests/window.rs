@@ -246,7 +246,7 @@ fn words_that_stand_by_themselves_are_read_out_once() {
     let words = update
         .nodes
         .iter()
-        .filter_map(|(_, node)| node.value().or(node.label()));
+        .filter_map(|(_, node)| node.value().or_else(|| node.label()));
     let mut words: Vec<&str> = words.collect();
     words.sort_unstable();
     for once in [
