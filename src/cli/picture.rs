@@ -21,8 +21,8 @@ use selvedge_textile::picture::{
 /// A picture, and what is known about it.
 #[derive(Debug, Clone, Args)]
 pub(super) struct PictureArgs {
-    /// The picture: PNG, JPEG, TIFF or BMP, 8 or 16 bits, up to 64 million pixels; of a folder every
-    /// picture in it
+    /// The picture: PNG, JPEG, TIFF or BMP, 8 or 16 bits, up to 64 million pixels; of a folder
+    /// every picture in it
     pub(super) image: PathBuf,
     /// Folder for periodicity.json, maxima.csv and pictures of every stage; of several pictures for
     /// a folder each, and pictures.csv

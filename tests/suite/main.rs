@@ -33,6 +33,7 @@ mod no_allocation;
 mod no_allocation_engine;
 mod old_designs;
 mod picture;
+mod picture_folder;
 mod picture_scale;
 mod picture_turned;
 mod picture_variation;

@@ -21,8 +21,8 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
 
 /// Writes files of one folder, by their names in it, so that all are there or none is.
 ///
-/// A folder that is not there is filled beside its place and then moved to it; in one that is, all files
-/// are on disk before the first takes its place, and the others follow in this order.
+/// A folder that is not there is filled beside its place and then moved to it; in one that is, all
+/// files are on disk before the first takes its place, and the others follow in this order.
 pub fn write_folder(folder: &Path, files: &[(&str, &[u8])]) -> Result<(), FileError> {
     let failed = FileError::write(folder);
     if !folder.exists() {

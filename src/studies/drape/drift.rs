@@ -1,4 +1,4 @@
-//! Energy over many seconds: what every way of stepping gains above the start, and what it has left.
+//! Energy over many seconds: what every way of stepping gains above the start, and what is left.
 
 use super::stability::MOST_GAINED;
 use super::{Sample, left_j};

@@ -108,8 +108,8 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
         "XPBD and projective dynamics let fingers touch nothing: they are left out where cloth is \
          grasped."
             .to_owned(),
-        "reach: what is asked for of ns_a_vertex, of the cost of a second (cores) and p99_ms, or of \
-         contact's us_a_newton_step; it was set at 2.5 GHz."
+        "reach: what is asked for of ns_a_vertex, of the cost of a second (cores) and p99_ms, or \
+         of contact's us_a_newton_step; it was set at 2.5 GHz."
             .to_owned(),
         "energy_beyond_percent: energy at the end less the work of hands, beyond the reference's, \
          of the cloth's weight times its length: below 0 the way of stepping itself has lost it; \
@@ -190,7 +190,8 @@ fn compare(motion: &Motion, bench: &Bench<'_>) -> Result<Vec<Row>, ReportError> 
         .sample
         .drape(motion.tilt_deg, (Integrator::Bdf2, None))?
         .limit_s();
-    // A twentieth is less than a microsecond, which no scene may ask for, in yarns beyond any cloth's.
+    // A twentieth is less than a microsecond, which no scene may ask for, in yarns beyond any
+    // cloth's.
     let is_stiff = motion.sample.stiffness_n_per_m.is_some_and(|k| k > 1e4);
     let share = if is_stiff {
         0.5

@@ -79,8 +79,8 @@ impl Sample {
         let step = step_s.map_or_else(String::new, |s| format!("step_ms = {:e}\n", 1e3 * s));
         let mut text = format!(
             "name = \"Studied\"\nsize_mm = [200.0, 200.0]\ngrid = [{n}, {n}]\npins = \"{pins}\"\n\
-             air = {is_lossy}\nhysteresis = {is_lossy}\nintegrator = \"{integrator}\"\n{step}[measured]\n\
-             weight_mg_per_cm2 = {weight:e}\nemt_percent = 5.0\n\
+             air = {is_lossy}\nhysteresis = {is_lossy}\nintegrator = \"{integrator}\"\n{step}\
+             [measured]\nweight_mg_per_cm2 = {weight:e}\nemt_percent = 5.0\n\
              {tension}\ng_gf_per_cm_deg = 0.5\nb_gf_cm2_per_cm = 0.1\nt0_mm = 0.5\n\
              rt_percent = 60.0\n2hg_gf_per_cm = 0.8\n2hg5_gf_per_cm = 1.6\n\
              2hb_gf_cm_per_cm = 0.03\n"

@@ -14,7 +14,7 @@ use selvedge_foundation::quantity::{self, with_unit};
 use selvedge_textile::picture::{Directions, Lattice};
 
 /// The side of a piece of cloth that is offered, points.
-const FOLDED: f32 = 72.0;
+const FOLDED: f32 = 60.0;
 
 /// Directions, lattice and tile.
 pub(super) fn show(
@@ -124,15 +124,14 @@ fn offered(ui: &mut Ui, draft: &mut Draft, cloth: &Cloth, textures: &mut Texture
             let side = vec2(FOLDED, FOLDED);
             ui.allocate_ui(side + vec2(0.0, ROW), |ui| {
                 ui.vertical(|ui| {
-                    let (rect, response) = ui.allocate_exact_size(side, Sense::click());
+                    let (rect, response) = ui.allocate_exact_size(side, Sense::CLICK);
                     textures.paint(ui.painter(), rect, N_CARDS + nth, folded);
                     let is_chosen = draft.lattice == chosen;
                     if is_chosen {
                         let ring = Stroke::new(2.0, Palette::in_ui(ui).selection);
-                        ui.painter().rect_stroke(rect, 0, ring, StrokeKind::Outside);
+                        ui.painter().rect_stroke(rect, 0, ring, StrokeKind::Inside);
                     }
-                    let is_pressed = response.on_hover_text(&tip).clicked();
-                    if toggle(ui, share.trim(), is_chosen, &tip) || is_pressed {
+                    if toggle(ui, share.trim(), is_chosen, &tip) || response.clicked() {
                         draft.lattice = chosen;
                     }
                 });

@@ -1,6 +1,7 @@
 //! The stage by acts and by a clock of its own; visitors; the window.
 
 mod ceiling;
+mod visit;
 mod visitors;
 mod window;
 
