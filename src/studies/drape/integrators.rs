@@ -193,8 +193,8 @@ fn compare(motion: &Motion, bench: &Bench<'_>) -> Result<Vec<Row>, ReportError> 
         .sample
         .drape(motion.tilt_deg, (Integrator::Bdf2, None))?
         .limit_s();
-    // Scenes may ask for a microsecond at least. Stretched on its way a cloth is stiffer than at its
-    // start.
+    // Scenes may ask for a microsecond at least. Stretched on its way a cloth is stiffer than at
+    // its start.
     let share = bench.effort.pick(0.2, 0.05);
     let reference_s = (share * limit_s).max(SHORTEST_S).min(0.5 * limit_s);
     let (mut reference, n_steps) = motion.start(Integrator::Explicit, reference_s)?;
