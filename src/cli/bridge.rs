@@ -92,26 +92,23 @@ fn list(how: &JsonArgs) -> Result<(), CliError> {
         );
     }
     let widest = ports.iter().map(|port| port.path.len()).max().unwrap_or(0);
+    let line = |port: &PortEntry| format!("{:widest$}  {}\n", port.path, port.description);
+    let mut words: String = ports.iter().map(line).collect();
     let port = |port: &PortEntry| ["serial", &port.path, &port.description].map(Cell::text);
     let mut rows: Vec<_> = ports.iter().map(port).collect();
     match AudioOutput::list() {
-        Ok(cards) => rows.extend(cards.iter().map(card)),
+        Ok(cards) => {
+            for AudioEntry { name, n_channels } in cards {
+                let channels = format!("{n_channels} channels");
+                words += &["audio: ", &name, ", ", &channels, "\n"].concat();
+                rows.push(["audio", &name, &channels].map(Cell::text));
+            }
+        }
         Err(AudioError::Absent) => {}
         Err(error) => terminal::notice(&error.to_string()),
     }
     let columns = ["kind", "name", "description"];
-    output::print_rows(how, columns, &rows, |[kind, name, description]| match kind
-        .to_string()
-        .as_str()
-    {
-        "audio" => format!("audio: {name}, {description}\n"),
-        _ => format!("{name:widest$}  {description}\n"),
-    })
-}
-
-fn card(AudioEntry { name, n_channels }: &AudioEntry) -> [Cell; 3] {
-    let channels = format!("{n_channels} channels");
-    ["audio", name, &channels].map(Cell::text)
+    output::print_rows(how, columns, &rows, || words)
 }
 
 #[cfg(unix)]

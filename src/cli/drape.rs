@@ -7,8 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, Subcommand};
 use serde::Serialize;
 
-use super::output::{self, TableOut};
-use super::output::{InFile, OutFile};
+use super::output::{self, InFile, OutFile, TableOut};
 use super::render_out::{AMPLITUDE_COLUMNS, write_amplitudes};
 use super::terminal::{self, Meter};
 use super::{CliError, signals};

@@ -38,7 +38,7 @@ fn list(how: &JsonArgs) -> Result<(), CliError> {
             Err(error) => terminal::notice(&error.to_string()),
         }
     }
-    output::print_rows(how, COLUMNS, &rows, line)
+    output::print_rows(how, COLUMNS, &rows, || rows.iter().map(line).collect())
 }
 
 const COLUMNS: [&str; 5] = ["device", "name", "width_mm", "height_mm", "contact"];

@@ -169,17 +169,17 @@ pub(super) fn rows_to_json<const N: usize>(
     Ok(to_json_string(&objects, place)?)
 }
 
-/// Prints rows: for people a line each, for programs as JSON.
+/// Prints rows: for programs as JSON, for people in words.
 pub(super) fn print_rows<const N: usize>(
     how: &JsonArgs,
     columns: [&str; N],
     rows: &[[Cell; N]],
-    line: impl FnMut(&[Cell; N]) -> String,
+    words: impl FnOnce() -> String,
 ) -> Result<(), CliError> {
     if how.json {
         return print(&rows_to_json(columns, rows, Path::new(STDOUT))?);
     }
-    print(&rows.iter().map(line).collect::<String>())
+    print(&words())
 }
 
 /// Creates what a staged file is written to.

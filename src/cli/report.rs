@@ -85,19 +85,26 @@ fn list(studies: &[Study], is_json: bool) -> Result<(), CliError> {
     let width = width.unwrap_or_default();
     let row = |study: &Study| [study.chapter, study.name, study.question].map(Cell::text);
     let rows: Vec<_> = studies.iter().map(row).collect();
-    let mut last = "";
-    let mut studies = studies.iter();
     let how = JsonArgs { json: is_json };
     let columns = ["chapter", "study", "asks"];
-    output::print_rows(&how, columns, &rows, |[chapter, name, asks]| {
-        let own = studies.next().map_or("", |study| study.chapter);
-        let is_new = std::mem::replace(&mut last, own) != own;
-        let heading = if is_new {
-            format!("{chapter}\n")
-        } else {
-            String::new()
+    output::print_rows(&how, columns, &rows, || {
+        let mut last = "";
+        let line = |study: &Study| {
+            let Study {
+                chapter,
+                name,
+                question,
+                ..
+            } = *study;
+            let is_new = std::mem::replace(&mut last, chapter) != chapter;
+            let heading = if is_new {
+                format!("{chapter}\n")
+            } else {
+                String::new()
+            };
+            format!("{heading}  {name:width$}  {question}\n")
         };
-        format!("{heading}  {name:width$}  {asks}\n")
+        studies.iter().map(line).collect()
     })
 }
 

@@ -157,10 +157,11 @@ fn list(library: &Library, how: &JsonArgs) -> Result<(), CliError> {
         rows.iter().map(width).max().unwrap_or(0)
     });
     let columns = ["id", "construction", "fibre", "name"];
-    output::print_rows(how, columns, &rows, |[id, construction, fibre, name]| {
+    let line = |[id, construction, fibre, name]: &[Cell; 4]| {
         let [a, b, c] = widths;
         format!("{id:a$}  {construction:b$}  {fibre:c$}  {name}\n")
-    })
+    };
+    output::print_rows(how, columns, &rows, || rows.iter().map(line).collect())
 }
 
 fn select(library: &Library) -> Result<(), CliError> {
@@ -182,10 +183,7 @@ fn show(library: &Library, id: &str, how: &JsonArgs) -> Result<(), CliError> {
     });
     let all = own.chain(textile_kes::figures(&textile.manifest().measured));
     let (rows, lines): (Vec<_>, Vec<String>) = all.unzip();
-    let mut lines = lines.into_iter();
-    output::print_rows(how, ["what", "value"], &rows, |_| {
-        lines.next().unwrap_or_default()
-    })
+    output::print_rows(how, ["what", "value"], &rows, || lines.concat())
 }
 
 /// What there is to say of a textile: what, and its value.

@@ -59,7 +59,7 @@ impl Integrator {
 impl Integrator {
     /// Whether fingers touch a cloth that is stepped so: else they are led, and there is no force
     /// to tell.
-    pub(crate) fn has_touch(self) -> bool {
+    pub fn has_touch(self) -> bool {
         !matches!(self, Self::Xpbd | Self::Projective)
     }
 }

@@ -93,9 +93,7 @@ impl KeptRun {
 
     fn parse(text: &str, path: &Path) -> Result<Vec<Self>, FrictionError> {
         let table = Table::read(text, path, &Self::header(), &[])?;
-        let columns = MEASURES.map(|measure| table.required_numbers(measure));
-        let columns: Result<Vec<Vec<f64>>, FileError> = columns.into_iter().collect();
-        let columns = columns?;
+        let measures = Scores::rows_of(&table)?;
         let text = |column: &str| table.text(column).unwrap_or_default();
         let [names, models, splits, seeds, widths, rounds] = HEAD.map(text);
         let [costs, commits] = TAIL.map(text);
@@ -118,7 +116,7 @@ impl KeptRun {
                 model: models[row].to_owned(),
                 split: splits[row].to_owned(),
                 lesson: [seed?, width?, rounds?],
-                measures: std::array::from_fn(|measure| columns[measure][row]),
+                measures: measures[row],
                 cpu_s: perhaps(row, costs[row])?,
                 commit: commits[row].to_owned(),
             })

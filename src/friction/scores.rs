@@ -33,15 +33,20 @@ impl Scores {
 
     pub(crate) fn read(path: &Path) -> Result<Self, FrictionError> {
         let table = Table::read(&read_text(path)?, path, &Self::header(), &[])?;
+        let cloths = table.text("family").unwrap_or_default();
+        Ok(Self {
+            cloths: cloths.into_iter().map(ToOwned::to_owned).collect(),
+            all: Self::rows_of(&table)?,
+        })
+    }
+
+    /// What each row of a table says of the measures.
+    pub(crate) fn rows_of(table: &Table) -> Result<Vec<[f64; Self::N]>, FileError> {
         let columns = MEASURES.map(|measure| table.required_numbers(measure));
         let columns: Result<Vec<Vec<f64>>, FileError> = columns.into_iter().collect();
         let columns = columns?;
         let row = |row: usize| std::array::from_fn(|measure| columns[measure][row]);
-        let cloths = table.text("family").unwrap_or_default();
-        Ok(Self {
-            cloths: cloths.into_iter().map(ToOwned::to_owned).collect(),
-            all: (0..table.n_rows()).map(row).collect(),
-        })
+        Ok((0..table.n_rows()).map(row).collect())
     }
 
     /// Of windows, each with its scores.

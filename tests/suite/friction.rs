@@ -11,13 +11,7 @@ fn cloth() -> Vec<u8> {
         let [x, y] = [f64::from(i % 600), f64::from(i / 600)];
         0.5 + 0.2 * (turn * x / 6.0).cos() + 0.15 * (turn * y / 7.0).cos()
     });
-    let picture = GrayImage {
-        width: 600,
-        height: 120,
-        values: GrayImage::values_of(values),
-        white: u16::MAX,
-        texts: Vec::new(),
-    };
+    let picture = GrayImage::of_shares([600, 120], values);
     picture.to_png("cloth.png".as_ref()).unwrap()
 }
 

@@ -18,13 +18,7 @@ pub(crate) fn cloth() -> Vec<u8> {
         let [u, v] = basis.coordinates([f64::from(i % 160), f64::from(i / 160)]);
         0.5 + 0.15 * (turn * u).cos() + 0.15 * (turn * v).sin() + 0.1 * (turn * (u + v)).cos()
     });
-    let picture = GrayImage {
-        width: 160,
-        height: 140,
-        values: GrayImage::values_of(values),
-        white: u16::MAX,
-        texts: Vec::new(),
-    };
+    let picture = GrayImage::of_shares([160, 140], values);
     picture.to_png("cloth.png".as_ref()).unwrap()
 }
 
@@ -200,13 +194,7 @@ fn lit_weave() -> Vec<u8> {
         let facing = 1.0 - p * 30_f64.to_radians().cos() - q * 30_f64.to_radians().sin();
         0.8 * facing.max(0.0) / ((1.0 + p * p + q * q).sqrt() * 2_f64.sqrt())
     });
-    let picture = GrayImage {
-        width: 168,
-        height: 168,
-        values: GrayImage::values_of(values),
-        white: u16::MAX,
-        texts: Vec::new(),
-    };
+    let picture = GrayImage::of_shares([168, 168], values);
     picture.to_png("weave.png".as_ref()).unwrap()
 }
 

@@ -14,13 +14,7 @@ fn plain_weave() -> Vec<u8> {
         let repeat = (0.5 * turn * x / 12.0).cos() * (0.5 * turn * y / 10.0).cos();
         0.5 + 0.1 * threads + 0.05 * repeat
     });
-    let picture = GrayImage {
-        width: 240,
-        height: 200,
-        values: GrayImage::values_of(values),
-        white: u16::MAX,
-        texts: Vec::new(),
-    };
+    let picture = GrayImage::of_shares([240, 200], values);
     picture.to_png("plain.png".as_ref()).unwrap()
 }
 

@@ -38,9 +38,10 @@ fn list(how: &JsonArgs) -> Result<(), CliError> {
     };
     let rows: Vec<_> = Design::shipped_names().filter_map(row).collect();
     let columns = ["name", "medium", "method", "title"];
-    output::print_rows(how, columns, &rows, |[name, medium, method, title]| {
+    let line = |[name, medium, method, title]: &[Cell; 4]| {
         format!("{name:<24}{medium:<12}{method:<14}{title}\n")
-    })
+    };
+    output::print_rows(how, columns, &rows, || rows.iter().map(line).collect())
 }
 
 /// What to give in place of a name that is not known.

@@ -37,12 +37,9 @@ pub(super) fn run(args: &PreviewArgs) -> Result<(), CliError> {
         seed: args.seed,
     };
     let preview = Preview::of(&design, &options)?;
-    let mut text = Some(described(&design, &preview));
     let rows = figures(&design, &preview);
     let columns = ["what", "value"];
-    output::print_rows(&args.how, columns, &rows, |_| {
-        text.take().unwrap_or_default()
-    })
+    output::print_rows(&args.how, columns, &rows, || described(&design, &preview))
 }
 
 /// The figures of what is described, for programs.

@@ -33,21 +33,18 @@ pub(super) fn run(args: &VerifyArgs) -> Result<(), CliError> {
         0 => String::new(),
         n => format!(", {n} not closed: trials are missing"),
     };
-    let broken = verified.breaks.iter();
-    let broken = broken.map(|one| [Cell::text("break"), Cell::text(one.to_string())]);
+    let broken: Vec<String> = verified.breaks.iter().map(ToString::to_string).collect();
+    let lines = broken.iter().map(|one| format!("{one}\n"));
+    let words = lines.collect::<Vec<_>>().concat();
+    let broken = broken
+        .into_iter()
+        .map(|one| ["break".to_owned(), one].map(Cell::text));
     let counts = [("logs", n_logs), ("broken", n_broken), ("open", n_open)];
     let counts = counts.map(|(what, n)| [Cell::text(what), Cell::count(n)]);
     let rows: Vec<_> = broken.chain(counts).collect();
-    output::print_rows(
-        &args.how,
-        ["what", "value"],
-        &rows,
-        |[what, value]| match what.to_string().as_str() {
-            "break" => format!("{value}\n"),
-            "logs" => format!("{n_logs} logs, {n_broken} broken{open}\n"),
-            _ => String::new(),
-        },
-    )?;
+    output::print_rows(&args.how, ["what", "value"], &rows, || {
+        format!("{words}{n_logs} logs, {n_broken} broken{open}\n")
+    })?;
     if n_broken == 0 {
         return Ok(());
     }

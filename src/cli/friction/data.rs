@@ -198,13 +198,7 @@ mod tests {
     /// Puts a fabric of 60 mm x 12 mm with a trace into a folder.
     fn put(folder: &ScratchFolder, trace: &str) {
         let values = (0..600 * 120_u32).map(|i| f64::from(i % 97) / 97.0);
-        let picture = GrayImage {
-            width: 600,
-            height: 120,
-            values: GrayImage::values_of(values),
-            white: u16::MAX,
-            texts: Vec::new(),
-        };
+        let picture = GrayImage::of_shares([600, 120], values);
         let png = picture.to_png("velvet.png".as_ref()).unwrap();
         folder.write("velvet.png", png);
         folder.write("velvet.csv", trace);

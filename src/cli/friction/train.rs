@@ -111,13 +111,7 @@ mod tests {
         let folder = ScratchFolder::made("mine");
         for nth in 0..5_u32 {
             let values = (0..600 * 110_u32).map(|i| f64::from(i * (nth + 1) % 97) / 97.0);
-            let picture = GrayImage {
-                width: 600,
-                height: 110,
-                values: GrayImage::values_of(values),
-                white: u16::MAX,
-                texts: Vec::new(),
-            };
+            let picture = GrayImage::of_shares([600, 110], values);
             let name = format!("cloth{nth}.png");
             folder.write(&name, picture.to_png(name.as_ref()).unwrap());
             let mu = |at: u32| format!("{}\n", 0.3 + 0.01 * f64::from(at % (3 + nth)));

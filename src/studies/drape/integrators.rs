@@ -205,8 +205,7 @@ fn compare(motion: &Motion, bench: &Bench<'_>) -> Result<Vec<Row>, ReportError> 
     let mut rows = Vec::new();
     for (integrator, step) in WAYS {
         let is_explicit = integrator == Integrator::Explicit;
-        let touches_nothing = matches!(integrator, Integrator::Xpbd | Integrator::Projective);
-        if touches_nothing && motion.sample.n_fingers > 0 {
+        if !integrator.has_touch() && motion.sample.n_fingers > 0 {
             continue;
         }
         let step_s = if is_explicit { step * limit_s } else { step };

@@ -153,14 +153,11 @@ impl Way {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Effort;
-    use selvedge_foundation::progress::Progress;
+    use crate::tests::quick;
 
     #[test]
     fn phases_by_chance_fail_on_a_whole_trace_and_not_on_what_is_not_slow() {
-        let findings =
-            Progress::unheard(|progress| (STUDY.run)(&mut Bench::new(Effort::Quick, 1, progress)))
-                .unwrap();
+        let findings = quick(&STUDY, 1);
         let error = |method: &str| {
             let is_it = |row: &&Row| row.method == method && row.size == Some(32.0);
             findings

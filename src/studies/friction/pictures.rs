@@ -288,14 +288,11 @@ fn costs(bench: &mut Bench<'_>) -> Result<Vec<Row>, ReportError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Effort;
-    use selvedge_foundation::progress::Progress;
+    use crate::tests::quick;
 
     #[test]
     fn noise_costs_and_extreme_pictures_give_friction() {
-        let findings =
-            Progress::unheard(|progress| (STUDY.run)(&mut Bench::new(Effort::Quick, 1, progress)))
-                .unwrap();
+        let findings = quick(&STUDY, 1);
         let error = |method: &str, setting: &str| {
             let is_it = |row: &&Row| row.method == method && row.setting == setting;
             findings

@@ -109,14 +109,11 @@ fn drawn<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Effort;
-    use selvedge_foundation::progress::Progress;
+    use crate::tests::quick;
 
     #[test]
     fn longer_training_and_wider_networks_miss_less_and_cost_more() {
-        let findings =
-            Progress::unheard(|progress| (STUDY.run)(&mut Bench::new(Effort::Quick, 1, progress)))
-                .unwrap();
+        let findings = quick(&STUDY, 1);
         for method in CHANGED {
             let of = |row: &&Row| row.method == method;
             let rows: Vec<&Row> = findings.rows.iter().filter(of).collect();
