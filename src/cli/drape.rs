@@ -288,11 +288,7 @@ impl ForcesOut {
             let rows = self.table.rows();
             for value in row {
                 // What is not told stays empty.
-                if value.is_nan() {
-                    rows.text("");
-                } else {
-                    rows.number(value);
-                }
+                rows.optional(Some(value).filter(|value| !value.is_nan()));
             }
             rows.end_row()?;
         }

@@ -2,12 +2,15 @@
 
 use std::ffi::OsStr;
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
 use super::output::{self, TableOut};
 use super::picture::{PictureArgs, Told, analysed};
 use super::{CliError, signals, terminal};
+use selvedge_foundation::files::TableWriter;
+use selvedge_textile::picture::Lattice;
 
 /// How files of pictures end.
 const ENDS: [&str; 6] = ["png", "jpg", "jpeg", "tif", "tiff", "bmp"];
@@ -43,21 +46,14 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
             Err(error) if stop.load(Ordering::Relaxed) => return Err(error),
             told => told,
         };
-        let row = table.rows();
-        row.text(&file);
+        let told = told.map_err(|error| error.to_string());
+        add(table.rows().text(&file), told.as_ref());
+        table.rows().end_row()?;
         match told {
-            Ok(told) => {
-                add(row, &told);
-                row.end_row()?;
-                told.say(path)?;
-            }
-            Err(error) => {
+            Ok(told) => told.say(path)?,
+            Err(line) => {
                 n_refused += 1;
-                for _ in 1..COLUMNS.len() - 1 {
-                    row.text("");
-                }
-                row.text(&error.to_string()).end_row()?;
-                terminal::notice(&error.to_string());
+                terminal::notice(&line);
             }
         }
     }
@@ -71,26 +67,22 @@ pub(super) fn run(args: &PictureArgs) -> Result<(), CliError> {
     output::print(&format!("{table}: {n} pictures\n"))
 }
 
-fn add<W: std::io::Write>(row: &mut selvedge_foundation::files::TableWriter<W>, told: &Told) {
-    for px in told.size_px {
-        row.number(px as f64);
+/// Adds what was found of a picture: its size, its lattice, and why there is none of either.
+fn add<W: Write>(row: &mut TableWriter<W>, told: Result<&Told, &String>) {
+    for axis in 0..2 {
+        row.optional(told.ok().map(|told| told.size_px[axis]));
     }
-    match &told.found {
-        Ok((lattice, explained)) => {
-            let vectors = [lattice.p1_px, lattice.p2_px];
-            let numbers = vectors.as_flattened().iter();
-            for number in numbers.chain([&lattice.confidence, explained]) {
-                row.number(*number);
-            }
-            row.text(&lattice.weave_name().unwrap_or_default()).text("");
-        }
-        Err(reason) => {
-            for _ in 0..7 {
-                row.text("");
-            }
-            row.text(reason);
-        }
+    let found = told.and_then(|told| told.found.as_ref());
+    let lattice = found.ok().map(|(lattice, _)| lattice);
+    for vector in [lattice.map(|l| l.p1_px), lattice.map(|l| l.p2_px)] {
+        let [x_px, y_px] = [0, 1].map(|axis| vector.map(|vector| vector[axis]));
+        row.optional(x_px).optional(y_px);
     }
+    row.optional(lattice.map(|lattice| lattice.confidence));
+    row.optional(found.ok().map(|(_, explained)| explained));
+    let weave = lattice.and_then(Lattice::weave_name).unwrap_or_default();
+    row.text(&weave)
+        .text(found.err().map_or("", String::as_str));
 }
 
 /// The pictures of a folder, by name.

@@ -113,14 +113,9 @@ fn write<W: std::io::Write>(
 ) -> Result<(), CliError> {
     row.number(tick.link).number(tick.tick);
     row.text(tick.state.name()).number(tick.gain);
-    match tick.amp_sum {
-        Some(amp_sum) => row.number(amp_sum),
-        None => row.text(""),
-    };
-    match tick.told {
-        Some((state, amp_sum)) => row.number(state).number(amp_sum),
-        None => row.text("").text(""),
-    };
+    row.optional(tick.amp_sum);
+    let (state, amp_sum) = tick.told.unzip();
+    row.optional(state).optional(amp_sum);
     for ([low, high], peak_um) in tick.codes.iter().zip(&tick.peak_um) {
         row.number(low).number(high).number(peak_um);
     }

@@ -66,8 +66,7 @@ pub(super) fn levels(library: &Library, out: Option<&Path>) -> Result<(), CliErr
         for cell in cells {
             match cell {
                 Cell::Text(text) => row.text(&text),
-                Cell::Number(Some(number)) => row.number(number),
-                Cell::Number(None) => row.text(""),
+                Cell::Number(number) => row.optional(number),
             };
         }
         row.end_row()?;

@@ -70,14 +70,8 @@ impl FrameTable {
         self.coder.encode_into(amplitudes_um, 1.0, &mut self.codes);
         let row = &mut self.table;
         row.number(tick).number(tick as f64 / TICKS_PER_S);
-        match apply_tick {
-            Some(apply_tick) if self.with_apply_tick => {
-                row.number(apply_tick);
-            }
-            None if self.with_apply_tick => {
-                row.text("");
-            }
-            _ => {}
+        if self.with_apply_tick {
+            row.optional(apply_tick);
         }
         for [low, high] in &self.codes {
             row.number(low).number(high);

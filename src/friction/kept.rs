@@ -126,16 +126,15 @@ impl KeptRun {
 
     fn write(all: &[Self], path: &Path) -> Result<(), FrictionError> {
         let mut table = TableWriter::new(Vec::new(), path, &Self::header())?;
-        let perhaps = |number: Option<f64>| number.map(|n| n.to_string()).unwrap_or_default();
         for run in all {
             table.text(&run.name).text(&run.model).text(&run.split);
             for number in run.lesson {
-                table.text(&perhaps(number));
+                table.optional(number);
             }
             for measure in run.measures {
                 table.number(measure);
             }
-            table.text(&perhaps(run.cpu_s)).text(&run.commit);
+            table.optional(run.cpu_s).text(&run.commit);
             table.end_row()?;
         }
         Ok(write_atomic(path, &table.finish()?)?)

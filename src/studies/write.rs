@@ -108,7 +108,7 @@ fn csv_of(study: &Study, findings: &Findings, path: &Path) -> Result<String, Rep
         for value in [row.size, row.error, row.error_p99, row.promised] {
             number(&mut table, value);
         }
-        optional(&mut table, row.is_kept());
+        table.optional(row.is_kept());
         let timing = row.cost.map(|cost| {
             let [low_s, high_s] = cost.cpu_interval_s;
             [cost.cpu_s, low_s, high_s, cost.wall_s]
@@ -116,10 +116,10 @@ fn csv_of(study: &Study, findings: &Findings, path: &Path) -> Result<String, Rep
         for nth in 0..4 {
             number(&mut table, timing.map(|timing| timing[nth]));
         }
-        optional(&mut table, row.cost.map(|cost| cost.n_repeats));
-        optional(&mut table, row.cost.map(|cost| cost.n_processes()));
-        optional(&mut table, row.bytes);
-        optional(&mut table, is_on_front.map(Front::word));
+        table.optional(row.cost.map(|cost| cost.n_repeats));
+        table.optional(row.cost.map(|cost| cost.n_processes()));
+        table.optional(row.bytes);
+        table.optional(is_on_front.map(Front::word));
         for name in &further {
             table.text(finite(row.further(name)));
         }
@@ -130,7 +130,7 @@ fn csv_of(study: &Study, findings: &Findings, path: &Path) -> Result<String, Rep
 
 /// A number, where it is one: a bound that does not hold may be infinite.
 fn number(table: &mut TableWriter<Vec<u8>>, value: Option<f64>) {
-    optional(table, value.filter(|value| value.is_finite()));
+    table.optional(value.filter(|value| value.is_finite()));
 }
 
 /// A cell of words or a number, empty where it is `inf` or `NaN`, as which other programs take it
@@ -141,13 +141,6 @@ pub(super) fn finite(cell: &str) -> &str {
         return "";
     }
     cell
-}
-
-fn optional(table: &mut TableWriter<Vec<u8>>, value: Option<impl std::fmt::Display>) {
-    match value {
-        Some(value) => table.number(value),
-        None => table.text(""),
-    };
 }
 
 /// A unit as names of columns spell it: `mm/s` is `mm_per_s`, `µm` is `um`.

@@ -251,7 +251,7 @@ fn cannot(path: &Path, what: String, format: &str) -> FileError {
 
 impl GrayImage {
     /// Grey values from shares of white, 0 to 1.
-    pub fn values_of(shares: impl Iterator<Item = f64>) -> Vec<u16> {
+    fn values_of(shares: impl Iterator<Item = f64>) -> Vec<u16> {
         let bytes = Number::U16.encode(shares.map(|share| share * f64::from(u16::MAX)));
         let pairs = bytes.as_chunks().0.iter();
         pairs.map(|&pair| u16::from_le_bytes(pair)).collect()

@@ -207,6 +207,14 @@ impl<W: Write> TableWriter<W> {
         self
     }
 
+    /// Adds a number, or an empty cell where there is none.
+    pub fn optional(&mut self, value: Option<impl std::fmt::Display>) -> &mut Self {
+        match value {
+            Some(value) => self.number(value),
+            None => self.text(""),
+        }
+    }
+
     /// Adds a cell with text, quoted if it must be.
     pub fn text(&mut self, text: &str) -> &mut Self {
         self.separate();

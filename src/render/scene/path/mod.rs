@@ -136,10 +136,7 @@ impl ExplorationPath {
                     .number(velocity.y_mm_per_s);
             }
             for cell in self.others_of(nth).as_flattened() {
-                match cell {
-                    Some(number) => table.number(number),
-                    None => table.text(""),
-                };
+                table.optional(*cell);
             }
             table.end_row()?;
         }

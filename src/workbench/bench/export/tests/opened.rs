@@ -43,13 +43,7 @@ impl Headless {
             let shares = [0.45 * x, 0.35 * y, 0.45 * x + 0.35 * y].map(f64::sin);
             0.5 + 0.15 * shares.iter().sum::<f64>()
         };
-        let picture = files::GrayImage {
-            width: 160,
-            height: 120,
-            values: files::GrayImage::values_of((0..160 * 120).map(grey)),
-            white: u16::MAX,
-            texts: Vec::new(),
-        };
+        let picture = files::GrayImage::of_shares([160, 120], (0..160 * 120).map(grey));
         fs::write(&path, picture.to_png(&path).unwrap()).unwrap();
         self.dispatch(FileCommand::Use(Purpose::OpenPicture(Pane::Picture), path));
         let picture: &mut Picture = self.workbench.tools.get_mut().unwrap();
