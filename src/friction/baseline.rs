@@ -330,7 +330,7 @@ impl Ridge {
 mod tests {
     use super::*;
     use crate::example::all_taken;
-    use crate::score::{LEVEL, LOG_SPECTRAL, MEASURES, score};
+    use crate::score::{Measure, Measures, score};
     use crate::split::Split;
 
     #[test]
@@ -340,7 +340,7 @@ mod tests {
         let mut table = Vec::new();
         for baseline in Baseline::ALL {
             let fitted = baseline.fitted(&learnt);
-            let mut mean = [0.0; MEASURES.len()];
+            let mut mean = [0.0; Measure::N];
             for example in &held_back {
                 let found = score(&fitted.predict(example), &example.trace);
                 assert!(
@@ -353,10 +353,8 @@ mod tests {
             }
             table.push(mean);
         }
-        let [lsd, level] = [LOG_SPECTRAL, LEVEL].map(|measure| {
-            move |baseline: Baseline, table: &[[f64; MEASURES.len()]]| {
-                table[baseline as usize][measure]
-            }
+        let [lsd, level] = [Measure::LogSpectral, Measure::LevelError].map(|measure| {
+            move |baseline: Baseline, table: &[Measures]| measure.of(&table[baseline as usize])
         });
         let of = |baseline| lsd(baseline, &table);
         assert!(of(Baseline::Best) < of(Baseline::Ridge));

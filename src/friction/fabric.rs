@@ -11,7 +11,7 @@ use crate::example::{Example, SHORT_WINDOW, WINDOW};
 use crate::picture::strips;
 use crate::predict::Predictor;
 use crate::runs::{Contestant, Taken};
-use crate::score::{LEVEL, LOG_SPECTRAL, Prediction, score};
+use crate::score::{Measure, Prediction, score};
 
 /// Of so many fabrics one is held back.
 const ONE_OF: usize = 5;
@@ -193,11 +193,11 @@ impl Fabric {
                         None => Prediction::of_course(&predictor.course(&example.looks)),
                     };
                     let scores = score(&found, &example.trace);
-                    let off = 0.01 * scores[LEVEL] * example.course.level;
+                    let off = 0.01 * Measure::LevelError.of(&scores) * example.course.level;
                     *sum = [
                         sum[0] + 1.0,
                         sum[1] + off * off,
-                        sum[2] + scores[LOG_SPECTRAL],
+                        sum[2] + Measure::LogSpectral.of(&scores),
                     ];
                 }
             }
@@ -264,7 +264,6 @@ fn warped(one: &[f64], other: &[f64], room: &mut Vec<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::score::MEASURES;
     use crate::split::Split;
     use selvedge_foundation::progress::Progress;
 
@@ -369,8 +368,6 @@ mod tests {
                 .all(|row| row.level_rmse.is_finite() && row.log_spectral_distance_db.is_none())
         );
         assert_eq!(rows.len(), 5);
-        assert_eq!(MEASURES[LEVEL], "level_error_percent");
-        assert_eq!(MEASURES[LOG_SPECTRAL], "log_spectral_distance_db");
         assert!(Progress::unheard(|progress| Fabric::left_out(&fabrics[..2], progress)).is_err());
     }
 }

@@ -8,7 +8,7 @@ use std::path::Path;
 use selvedge_foundation::files::{FileError, Table, TableWriter, read_text, write_atomic};
 
 use crate::runs::{Contestant, Run};
-use crate::score::MEASURES;
+use crate::score::{Measure, Measures};
 use crate::{FrictionError, Scores};
 
 /// The table's name in a folder of runs.
@@ -31,8 +31,8 @@ pub struct KeptRun {
     pub split: String,
     /// Seed, channels and rounds of a network that learns; empty of others.
     pub lesson: [Option<f64>; 3],
-    /// The mean of each of [`Scores::COLUMNS`] over held-back windows.
-    pub measures: [f64; Scores::N],
+    /// The mean of each of [`Measure`] over held-back windows.
+    pub measures: Measures,
     /// CPU time that learning and scoring took, s, if it was made in one piece.
     pub cpu_s: Option<f64>,
     /// The commit of the code that made it, if it is known; else empty.
@@ -88,7 +88,10 @@ impl KeptRun {
     }
 
     fn header() -> Vec<&'static str> {
-        HEAD.into_iter().chain(MEASURES).chain(TAIL).collect()
+        HEAD.into_iter()
+            .chain(Measure::COLUMNS)
+            .chain(TAIL)
+            .collect()
     }
 
     fn parse(text: &str, path: &Path) -> Result<Vec<Self>, FrictionError> {
@@ -194,7 +197,7 @@ mod tests {
         let network = Contestant::Network(Lesson::usual(Method::Ours, 7));
         let ridge = Contestant::Baseline(Baseline::Ridge);
         let kept = |contestant, measure, cpu_s| {
-            let scores = Scores::of(&[], vec![[measure; Scores::N]]);
+            let scores = Scores::of(&[], vec![[measure; Measure::N]]);
             KeptRun::of(&run(contestant, &folder), &scores, cpu_s)
         };
         for one in [

@@ -40,5 +40,6 @@ pub use kept::KeptRun;
 pub use network::{AdversarialLoss, Lesson, Method};
 pub use predict::{PredictedFriction, Predictor};
 pub use runs::{Contestant, Run, Taken};
+pub use score::{Measure, Measures};
 pub use scores::Scores;
 pub use split::Split;

@@ -271,7 +271,7 @@ fn scored(
 mod tests {
     use super::*;
     use crate::network::Size;
-    use crate::score::LEVEL;
+    use crate::score::Measure;
     use selvedge_foundation::progress::{CancelFlag, Progress};
 
     #[test]
@@ -309,13 +309,19 @@ mod tests {
                 Progress::unheard(|progress| run.run(&taken, progress, &mut |_| {})).unwrap();
             let families = scores.by_cloth();
             assert_eq!(families.len(), 8);
-            let sum: f64 = families.iter().map(|(_, mean)| mean[LEVEL]).sum();
+            let sum: f64 = families
+                .iter()
+                .map(|(_, mean)| Measure::LevelError.of(mean))
+                .sum();
             // As many windows of each.
-            assert!((sum / 8.0 - scores.mean()[LEVEL]).abs() < 1e-12);
-            let [of_name, of_windows] = [families[2].1[LEVEL], {
+            assert!((sum / 8.0 - Measure::LevelError.of(&scores.mean())).abs() < 1e-12);
+            let [of_name, of_windows] = [Measure::LevelError.of(&families[2].1), {
                 let windows = taken.held_back.iter().zip(scores.windows());
                 let of_family = windows.filter(|(of, _)| of.cloth == families[2].0);
-                of_family.map(|(_, scores)| scores[LEVEL]).sum::<f64>() / 2.0
+                of_family
+                    .map(|(_, scores)| Measure::LevelError.of(scores))
+                    .sum::<f64>()
+                    / 2.0
             }];
             assert!((of_name - of_windows).abs() < 1e-12);
             assert_eq!(run.finished().unwrap(), Some(scores));

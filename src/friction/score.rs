@@ -46,30 +46,70 @@ impl Prediction {
     }
 }
 
-/// What is measured, as columns of files; all but the ratio of deviations and the correlation are
-/// best at 0.
-pub(crate) const MEASURES: [&str; 12] = [
-    "spectrogram_rmse",
-    "spectrogram_mae",
-    "signal_rmse",
-    "signal_mae",
-    "signal_rmse_percent",
-    "level_error_percent",
-    "deviation_ratio",
-    "log_spectral_distance_db",
-    "band_energy_error_db",
-    "dominant_period_error_mm",
-    "correlation",
-    "signal_mae_percent",
-];
+/// What is measured, in the order of columns of files; all but two are best at 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Measure {
+    /// Root mean square difference of magnitudes.
+    SpectrogramRmse,
+    /// Mean absolute difference of magnitudes.
+    SpectrogramMae,
+    /// Root mean square difference of traces.
+    SignalRmse,
+    /// Mean absolute difference of traces.
+    SignalMae,
+    /// The same root, % of the level that was felt.
+    SignalRmsePercent,
+    /// Difference of levels, % of the one that was felt.
+    LevelError,
+    /// Standard deviation over that of what was felt: best at 1.
+    DeviationRatio,
+    /// Distance of spectra, dB.
+    LogSpectral,
+    /// Difference of seven bands' energies, dB.
+    BandEnergy,
+    /// Difference of the strongest bins' periods, mm.
+    DominantPeriod,
+    /// Pearson's, of traces: best at 1.
+    Correlation,
+    /// The mean absolute difference of traces, % of the level.
+    SignalMaePercent,
+}
 
-/// The place of a measure in [`MEASURES`].
-pub(crate) const LEVEL: usize = 5;
-/// The place of another.
-pub(crate) const LOG_SPECTRAL: usize = 7;
+/// A prediction by each [`Measure`].
+pub type Measures = [f64; Measure::N];
 
-/// A prediction against the trace that was felt, by each of [`MEASURES`].
-pub(crate) fn score(predicted: &Prediction, felt: &[f64]) -> [f64; MEASURES.len()] {
+impl Measure {
+    /// How many there are.
+    pub const N: usize = Self::COLUMNS.len();
+    /// Their names, with units, as columns of files.
+    pub const COLUMNS: [&str; 12] = [
+        "spectrogram_rmse",
+        "spectrogram_mae",
+        "signal_rmse",
+        "signal_mae",
+        "signal_rmse_percent",
+        "level_error_percent",
+        "deviation_ratio",
+        "log_spectral_distance_db",
+        "band_energy_error_db",
+        "dominant_period_error_mm",
+        "correlation",
+        "signal_mae_percent",
+    ];
+
+    /// Its column.
+    pub const fn column(self) -> &'static str {
+        Self::COLUMNS[self as usize]
+    }
+
+    /// Its value among all.
+    pub const fn of(self, measures: &Measures) -> f64 {
+        measures[self as usize]
+    }
+}
+
+/// A prediction against the trace that was felt, by each [`Measure`].
+pub(crate) fn score(predicted: &Prediction, felt: &[f64]) -> Measures {
     let truth = Prediction::of_trace(felt.to_vec());
     let bins = || {
         predicted
@@ -183,18 +223,24 @@ mod tests {
         let felt = &example.trace;
         let perfect = score(&Prediction::of_trace(felt.clone()), felt);
         let expected = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
-        for ((found, expected), measure) in perfect.iter().zip(expected).zip(MEASURES) {
+        for ((found, expected), measure) in perfect.iter().zip(expected).zip(Measure::COLUMNS) {
             assert!((found - expected).abs() < 1e-9, "{measure}: {found}");
         }
         let level = example.course.level;
         let flat = score(&Prediction::of_trace(vec![1.02 * level; felt.len()]), felt);
-        assert!((flat[LEVEL] - 2.0).abs() < 1e-9, "{}", flat[LEVEL]);
+        assert!(
+            (Measure::LevelError.of(&flat) - 2.0).abs() < 1e-9,
+            "{}",
+            Measure::LevelError.of(&flat)
+        );
         assert!(
             (flat[11] - 100.0 * flat[3] / level).abs() < 1e-9,
             "{flat:?}"
         );
         assert!(
-            flat[LOG_SPECTRAL] > 5.0 && flat[10] == 0.0 && flat[6] < 1e-9,
+            Measure::LogSpectral.of(&flat) > 5.0
+                && Measure::Correlation.of(&flat) == 0.0
+                && Measure::DeviationRatio.of(&flat) < 1e-9,
             "{flat:?}"
         );
     }
@@ -209,10 +255,10 @@ mod tests {
             let flat = vec![example.course.level; example.trace.len()];
             let flat = score(&Prediction::of_trace(flat), &example.trace);
             assert!(
-                best[LOG_SPECTRAL] < flat[LOG_SPECTRAL],
+                Measure::LogSpectral.of(&best) < Measure::LogSpectral.of(&flat),
                 "{window:?}: {best:?}, {flat:?}"
             );
-            assert!(best[LEVEL] < 5.0, "{best:?}");
+            assert!(Measure::LevelError.of(&best) < 5.0, "{best:?}");
         }
     }
 }

@@ -6,29 +6,20 @@ use selvedge_foundation::files::{FileError, Table, TableWriter, read_text, write
 
 use crate::FrictionError;
 use crate::example::Example;
-use crate::score::{LEVEL, LOG_SPECTRAL, MEASURES};
+use crate::score::{Measure, Measures};
 
-/// Scores of held-back windows, each by [`Self::COLUMNS`].
+/// Scores of held-back windows, each by [`Measure`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scores {
     /// The family, or the fabric that was given, of each window.
     cloths: Vec<String>,
-    all: Vec<[f64; Self::N]>,
+    all: Vec<Measures>,
 }
 
 impl Scores {
-    /// Measures of a window.
-    pub const N: usize = MEASURES.len();
-    /// Their names, with units, as columns of files.
-    pub const COLUMNS: [&str; Self::N] = MEASURES;
-    /// The place of the level's error, %.
-    pub const LEVEL: usize = LEVEL;
-    /// The place of the distance of spectra, dB.
-    pub const LOG_SPECTRAL: usize = LOG_SPECTRAL;
-
     fn header() -> Vec<&'static str> {
         let place = ["family", "seed", "column"];
-        place.into_iter().chain(MEASURES).collect()
+        place.into_iter().chain(Measure::COLUMNS).collect()
     }
 
     pub(crate) fn read(path: &Path) -> Result<Self, FrictionError> {
@@ -41,8 +32,8 @@ impl Scores {
     }
 
     /// What each row of a table says of the measures.
-    pub(crate) fn rows_of(table: &Table) -> Result<Vec<[f64; Self::N]>, FileError> {
-        let columns = MEASURES.map(|measure| table.required_numbers(measure));
+    pub(crate) fn rows_of(table: &Table) -> Result<Vec<Measures>, FileError> {
+        let columns = Measure::COLUMNS.map(|measure| table.required_numbers(measure));
         let columns: Result<Vec<Vec<f64>>, FileError> = columns.into_iter().collect();
         let columns = columns?;
         let row = |row: usize| std::array::from_fn(|measure| columns[measure][row]);
@@ -50,24 +41,24 @@ impl Scores {
     }
 
     /// Of windows, each with its scores.
-    pub(crate) fn of(windows: &[Example], all: Vec<[f64; Self::N]>) -> Self {
+    pub(crate) fn of(windows: &[Example], all: Vec<Measures>) -> Self {
         let cloths = windows.iter().map(|window| window.cloth.clone()).collect();
         Self { cloths, all }
     }
 
     /// The scores of each window.
     #[cfg(test)]
-    pub(crate) fn windows(&self) -> &[[f64; Self::N]] {
+    pub(crate) fn windows(&self) -> &[Measures] {
         &self.all
     }
 
     /// Each measure's mean over the windows.
-    pub fn mean(&self) -> [f64; Self::N] {
+    pub fn mean(&self) -> Measures {
         Self::mean_of(self.all.iter())
     }
 
     /// The mean over the windows of each family, or fabric that was given, in order.
-    pub fn by_cloth(&self) -> Vec<(&str, [f64; Self::N])> {
+    pub fn by_cloth(&self) -> Vec<(&str, Measures)> {
         let mut names: Vec<&str> = self.cloths.iter().map(String::as_str).collect();
         names.sort_unstable();
         names.dedup();
@@ -79,8 +70,8 @@ impl Scores {
         names.into_iter().map(of).collect()
     }
 
-    fn mean_of<'a>(windows: impl Iterator<Item = &'a [f64; Self::N]>) -> [f64; Self::N] {
-        let (mut n, mut sums) = (0.0, [0.0; Self::N]);
+    fn mean_of<'a>(windows: impl Iterator<Item = &'a Measures>) -> Measures {
+        let (mut n, mut sums) = (0.0, [0.0; Measure::N]);
         for scores in windows {
             n += 1.0;
             for (sum, score) in sums.iter_mut().zip(scores) {

@@ -166,8 +166,8 @@ pub(super) fn n_at_a_time() -> usize {
     n_threads().min(2)
 }
 
-/// Hands out studies in their order, so many at a time, each with its place, until they are all
-/// done or one breaks off.
+/// Hands out studies, so many at a time, each with its place, until they are all done or one breaks
+/// off: from the last, since short ones stand first and fill what is left of the time.
 pub(super) fn side_by_side(
     n_at_a_time: usize,
     studies: &[Study],
@@ -176,9 +176,11 @@ pub(super) fn side_by_side(
     let next = AtomicUsize::new(0);
     let work = || {
         loop {
-            let nth = next.fetch_add(1, Ordering::Relaxed);
-            let Some(study) = studies.get(nth) else { break };
-            if one(nth, study).is_break() {
+            let n_begun = 1 + next.fetch_add(1, Ordering::Relaxed);
+            let Some(nth) = studies.len().checked_sub(n_begun) else {
+                break;
+            };
+            if one(nth, &studies[nth]).is_break() {
                 next.store(studies.len(), Ordering::Relaxed);
             }
         }

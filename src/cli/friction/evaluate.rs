@@ -13,7 +13,8 @@ use crate::usage::one_of;
 use selvedge_foundation::numerics::n_threads;
 use selvedge_foundation::quantity::fixed;
 use selvedge_friction::{
-    Baseline, Contestant, Fabric, FrictionError, KeptRun, Lesson, Method, Run, Scores, Split, Taken,
+    Baseline, Contestant, Fabric, FrictionError, KeptRun, Lesson, Measure, Measures, Method, Run,
+    Scores, Split, Taken,
 };
 
 /// Which runs are put together.
@@ -42,7 +43,7 @@ pub(super) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
         return of_fabrics(args, &fabrics);
     }
     let path = args.out.join("table.csv");
-    let measures = Scores::COLUMNS
+    let measures = Measure::COLUMNS
         .into_iter()
         .flat_map(|column| [column.to_owned(), format!("{column}_sd")]);
     let header: Vec<String> = ["split", "method", "runs"]
@@ -94,7 +95,7 @@ fn families(args: &EvaluateArgs) -> Result<(), CliError> {
     let path = args.out.join("families.csv");
     let header: Vec<&str> = ["run", "family"]
         .into_iter()
-        .chain(Scores::COLUMNS)
+        .chain(Measure::COLUMNS)
         .collect();
     let mut csv = TableOut::new(Some(&path), &header)?;
     for (name, scores) in Run::all_finished(&args.out)? {
@@ -141,7 +142,7 @@ fn others(args: &EvaluateArgs) -> Result<Vec<String>, CliError> {
     for (name, scores) in Run::all_finished(&args.out)? {
         if !in_table.contains(&name) {
             let mean = scores.mean();
-            let [db, percent] = [SHOWN[0].0, SHOWN[1].0].map(|measure| fixed(mean[measure], 2));
+            let [db, percent] = [SHOWN[0].0, SHOWN[1].0].map(|measure| fixed(measure.of(&mean), 2));
             lines.push(format!(
                 "besides: {name}: spectrum {db} dB, level {percent} %"
             ));
@@ -193,11 +194,8 @@ fn not_run(args: &EvaluateArgs, split: Split, method: Method, seeds: &[u64]) -> 
 
 type Missing = Vec<(Method, Vec<u64>)>;
 
-/// Each measure's mean over held-back windows.
-type Means = [f64; Scores::N];
-
 /// What came of a run: of the folder's, or else of the shipped one.
-fn means(run: &Run<'_>, shipped: &[KeptRun]) -> Result<Option<Means>, CliError> {
+fn means(run: &Run<'_>, shipped: &[KeptRun]) -> Result<Option<Measures>, CliError> {
     if let Some(scores) = run.finished()? {
         return Ok(Some(scores.mean()));
     }
@@ -269,7 +267,7 @@ fn simple(args: &EvaluateArgs, split: Split, shipped: &[KeptRun]) -> Result<Vec<
 }
 
 /// Mean and standard deviation (0 of a single run) of runs with other seeds.
-fn over_seeds(runs: &[Means]) -> [[f64; 2]; Scores::N] {
+fn over_seeds(runs: &[Measures]) -> [[f64; 2]; Measure::N] {
     let n = runs.len() as f64;
     std::array::from_fn(|measure| {
         let mean = runs.iter().map(|run| run[measure]).sum::<f64>() / n;

@@ -9,7 +9,7 @@ use selvedge_chart::{Axis, Chart, Figure, FigureError, Ink, Raster, Row, Series,
 use selvedge_foundation::files::encode_png_rgba;
 use selvedge_foundation::numerics::{Grid, extent, to_byte};
 use selvedge_foundation::quantity::fixed;
-use selvedge_friction::{PredictedFriction, Predictor, Scores, Split, Taken};
+use selvedge_friction::{Measure, PredictedFriction, Predictor, Split, Taken};
 
 /// Width of a picture, px.
 const WIDTH_PX: u32 = 1720;
@@ -58,7 +58,7 @@ fn write(out: &Path, name: &str, figure: &Figure) -> Result<(), CliError> {
 
 /// Of every family the cloth whose spectrum is missed as much as its family's usually is.
 fn traces(shown: &[Shown<'_>], split: Split) -> Figure {
-    let missed = |one: &Shown<'_>| one.found.scores(one.felt)[Scores::LOG_SPECTRAL];
+    let missed = |one: &Shown<'_>| Measure::LogSpectral.of(&one.found.scores(one.felt));
     let rows = families(shown).into_iter().filter_map(|family| {
         let mut of_family: Vec<_> = shown.iter().filter(|one| one.family == family).collect();
         of_family.sort_by(|a, b| missed(a).total_cmp(&missed(b)));

@@ -2,42 +2,42 @@
 //! who is best by what means something is told in words.
 
 use selvedge_foundation::quantity::fixed;
-use selvedge_friction::{Baseline, Method, Scores};
+use selvedge_friction::{Baseline, Measure, Method};
 
 /// A row of the table: who, how many runs, each measure's mean and deviation over seeds.
 pub(super) struct Row {
     pub(super) name: &'static str,
     pub(super) n_runs: usize,
-    pub(super) measures: [[f64; 2]; Scores::N],
+    pub(super) measures: [[f64; 2]; Measure::N],
 }
 
 /// What is read first: spectra, level, deviations, the paper's own measures.
-pub(super) const SHOWN: [(usize, &str, usize); 9] = [
-    (Scores::LOG_SPECTRAL, "spectrum dB", 2),
-    (Scores::LEVEL, "level %", 2),
-    (8, "bands dB", 2),
-    (6, "deviations", 2),
-    (9, "period mm", 2),
-    (10, "correlation", 2),
-    (0, "spectrogram RMSE", 3),
-    (4, "signal RMSE %", 2),
-    (11, "signal MAE %", 2),
+pub(super) const SHOWN: [(Measure, &str, usize); 9] = [
+    (Measure::LogSpectral, "spectrum dB", 2),
+    (Measure::LevelError, "level %", 2),
+    (Measure::BandEnergy, "bands dB", 2),
+    (Measure::DeviationRatio, "deviations", 2),
+    (Measure::DominantPeriod, "period mm", 2),
+    (Measure::Correlation, "correlation", 2),
+    (Measure::SpectrogramRmse, "spectrogram RMSE", 3),
+    (Measure::SignalRmsePercent, "signal RMSE %", 2),
+    (Measure::SignalMaePercent, "signal MAE %", 2),
 ];
 
 /// What a measure is at best, and how far from it a value is.
-fn off(measure: usize, value: f64) -> f64 {
-    match Scores::COLUMNS[measure] {
-        "deviation_ratio" => value.ln().abs(),
-        "correlation" => -value,
+fn off(measure: Measure, value: f64) -> f64 {
+    match measure {
+        Measure::DeviationRatio => value.ln().abs(),
+        Measure::Correlation => -value,
         _ => value,
     }
 }
 
 /// The row that is best by a measure, among those that are told nothing of the answer.
-fn best(rows: &[Row], measure: usize) -> Option<&Row> {
+fn best(rows: &[Row], measure: Measure) -> Option<&Row> {
     let told_nothing = rows.iter().filter(|row| !is_told_answer(row.name));
     told_nothing.min_by(|a, b| {
-        let [a, b] = [a, b].map(|row| off(measure, row.measures[measure][0]));
+        let [a, b] = [a, b].map(|row| off(measure, row.measures[measure as usize][0]));
         a.total_cmp(&b)
     })
 }
@@ -51,9 +51,9 @@ fn is_told_answer(name: &str) -> bool {
 /// Who is best by what means something, and by how much before ours.
 fn winners(rows: &[Row]) -> Vec<String> {
     let ours = rows.iter().find(|row| row.name == Method::Ours.word());
-    let sentence = |(measure, what, unit): (usize, &str, &str)| {
+    let sentence = |(measure, what, unit): (Measure, &str, &str)| {
         let best = best(rows, measure)?;
-        let value = |row: &Row| row.measures[measure][0];
+        let value = |row: &Row| row.measures[measure as usize][0];
         let before = ours.filter(|ours| ours.name != best.name).map(|ours| {
             let far = fixed(value(ours) - value(best), 2);
             format!(", {far} {unit} before {}", ours.name)
@@ -71,8 +71,8 @@ fn winners(rows: &[Row]) -> Vec<String> {
         ))
     };
     let judged = [
-        (Scores::LOG_SPECTRAL, "spectrum", "dB"),
-        (Scores::LEVEL, "level", "%"),
+        (Measure::LogSpectral, "spectrum", "dB"),
+        (Measure::LevelError, "level", "%"),
     ];
     judged.into_iter().filter_map(sentence).collect()
 }
@@ -85,10 +85,10 @@ pub(super) fn table(rows: &[Row]) -> Vec<String> {
     };
     let head = SHOWN.map(|(_, name, _)| name.to_owned());
     let row = |row: &Row| {
-        let cell = |(measure, _, digits): (usize, &str, usize)| {
+        let cell = |(measure, _, digits): (Measure, &str, usize)| {
             let is_best = best(rows, measure).is_some_and(|best| best.name == row.name);
             let star = if is_best { "*" } else { "" };
-            let [mean, sd] = row.measures[measure].map(|number| fixed(number, digits));
+            let [mean, sd] = row.measures[measure as usize].map(|number| fixed(number, digits));
             if row.n_runs > 1 {
                 format!("{star}{mean} ± {sd}")
             } else {
@@ -108,10 +108,10 @@ mod tests {
     use super::*;
 
     fn row(name: &'static str, db: f64, percent: f64, ratio: f64) -> Row {
-        let mut measures = [[1.0, 0.0]; Scores::N];
-        measures[Scores::LOG_SPECTRAL][0] = db;
-        measures[Scores::LEVEL][0] = percent;
-        measures[6][0] = ratio;
+        let mut measures = [[1.0, 0.0]; Measure::N];
+        measures[Measure::LogSpectral as usize][0] = db;
+        measures[Measure::LevelError as usize][0] = percent;
+        measures[Measure::DeviationRatio as usize][0] = ratio;
         Row {
             name,
             n_runs: 1,

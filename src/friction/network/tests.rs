@@ -5,7 +5,7 @@ use super::learn::Network as _;
 use super::*;
 use crate::baseline::Baseline;
 use crate::example::{Example, all_taken};
-use crate::score::{LOG_SPECTRAL, Prediction, score};
+use crate::score::{Measure, Prediction, score};
 use crate::split::Split;
 use selvedge_foundation::progress::Progress;
 
@@ -51,7 +51,7 @@ fn learning_goes_on_where_it_was_broken_off_to_the_same_bytes() {
 
 /// Mean distance of spectra from held-back windows, dB.
 fn held_out(held_back: &[Example], predict: &dyn Fn(&Example) -> Prediction) -> f64 {
-    let one = |example| score(&predict(example), &example.trace)[LOG_SPECTRAL];
+    let one = |example| Measure::LogSpectral.of(&score(&predict(example), &example.trace));
     held_back.iter().map(one).sum::<f64>() / held_back.len() as f64
 }
 

@@ -9,7 +9,7 @@ use crate::FrictionError;
 use crate::cloth::PER_MM;
 use crate::network::{OurNetwork, Size, Weights};
 use crate::picture::{Looks, N_BANDS, band_edges, strips};
-use crate::score::{MEASURES, Prediction, score};
+use crate::score::{Measures, Prediction, score};
 use crate::signal::{Course, FRAME, HOP, MAGNITUDE_SCALE, spectra};
 
 /// Weights learnt from other seeds, and what was found of them on cloths that were held back.
@@ -106,7 +106,7 @@ impl PredictedFriction {
     /// How far it is from the trace that was felt there, by [`Scores::COLUMNS`].
     ///
     /// [`Scores::COLUMNS`]: crate::Scores::COLUMNS
-    pub fn scores(&self, felt: &[f64]) -> [f64; MEASURES.len()] {
+    pub fn scores(&self, felt: &[f64]) -> Measures {
         score(&Prediction::of_course(&self.course), felt)
     }
 }

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use super::*;
 use crate::example::{Example, all_taken};
-use crate::score::{LEVEL, LOG_SPECTRAL};
+use crate::score::Measure;
 use crate::split::Split;
 use selvedge_foundation::files::{EditedKeys, KeyValue};
 
@@ -32,13 +32,19 @@ fn the_shipped_networks_reach_the_score_that_is_recorded_of_them() {
     for example in &examples {
         let course = predictor.course(&example.looks);
         let found = score(&Prediction::of_course(&course), &example.trace);
-        for (sum, measure) in mean.iter_mut().zip([LOG_SPECTRAL, LEVEL]) {
-            *sum += found[measure] / examples.len() as f64;
+        for (sum, measure) in mean
+            .iter_mut()
+            .zip([Measure::LogSpectral, Measure::LevelError])
+        {
+            *sum += measure.of(&found) / examples.len() as f64;
         }
     }
-    for (found, measure) in mean.into_iter().zip([LOG_SPECTRAL, LEVEL]) {
-        let KeyValue::Float(recorded) = provenance(("together", MEASURES[measure])) else {
-            panic!("no {}", MEASURES[measure]);
+    for (found, measure) in mean
+        .into_iter()
+        .zip([Measure::LogSpectral, Measure::LevelError])
+    {
+        let KeyValue::Float(recorded) = provenance(("together", measure.column())) else {
+            panic!("no {}", measure.column());
         };
         assert!((found - recorded).abs() < 1e-3, "{found}, not {recorded}");
     }

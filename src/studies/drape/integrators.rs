@@ -129,10 +129,14 @@ fn motions(effort: Effort) -> Vec<Motion> {
         };
         return vec![short(SWING), short(GRASP)];
     }
-    let mut all = Vec::new();
-    for n in [26, 51] {
-        all.extend([SWING, FALL, GRASP].map(|motion| motion.with(n, None)));
-    }
+    let mut all = [SWING, FALL, GRASP]
+        .map(|motion| motion.with(26, None))
+        .to_vec();
+    // Steps of the reference cost ten times as much there.
+    all.extend([SWING, FALL, GRASP].map(|motion| Motion {
+        seconds: 0.5 * motion.seconds,
+        ..motion.with(51, None)
+    }));
     all.extend(STIFFNESSES.map(|k| SWING.with(26, Some(k))));
     all
 }

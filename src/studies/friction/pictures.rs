@@ -5,7 +5,7 @@ use crate::{Bench, Findings, ReportError, Row, Study};
 use selvedge_chart::{Axis, Chart};
 use selvedge_foundation::numerics::{Grid, Random, n_threads, to_index, to_single};
 use selvedge_foundation::quantity::fixed;
-use selvedge_friction::{PredictedFriction, Predictor, Scores, Split, Taken};
+use selvedge_friction::{Measure, PredictedFriction, Predictor, Split, Taken};
 
 /// Worse pictures, and extreme ones.
 pub(crate) const STUDY: Study = Study {
@@ -159,7 +159,7 @@ fn smoothed(picture: &Grid<f32>) -> Grid<f32> {
 
 fn pictures(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
     // Nothing is seen where errors are not asked for.
-    let n_cloths = bench.effort.pick(4, 40);
+    let n_cloths = bench.effort.pick(4, 20);
     let (taken, all) = if bench.wants_errors() {
         let taken = Taken::held_back(Split::Cloths, n_cloths, n_threads());
         (taken, Spoilt::all(bench))
@@ -178,8 +178,8 @@ fn pictures(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
             let (scale, share) = (spoilt.px_per_mm(), spoilt.shaken());
             let found = predictor.shaken(&picture, scale, share, &mut random);
             let scores = found?.scores(&felt[..spoilt.n_left(felt.len())]);
-            distances.push(scores[Scores::LOG_SPECTRAL]);
-            levels.push(scores[Scores::LEVEL]);
+            distances.push(Measure::LogSpectral.of(&scores));
+            levels.push(Measure::LevelError.of(&scores));
         }
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
         rows.push(Row {

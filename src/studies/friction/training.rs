@@ -5,7 +5,7 @@ use crate::chart::{chart, lines_by};
 use crate::{Bench, Findings, ReportError, Row, Study};
 use selvedge_chart::{Axis, Chart};
 use selvedge_foundation::quantity::fixed;
-use selvedge_friction::{KeptRun, Method, Scores, Split};
+use selvedge_friction::{KeptRun, Measure, Method, Split};
 
 /// The study.
 pub(crate) const STUDY: Study = Study {
@@ -69,10 +69,10 @@ fn row(run: &KeptRun, changed: usize, method: &'static str) -> Option<(f64, Row)
     if size[same].total_cmp(&USUAL[same]).is_ne() {
         return None;
     }
-    let level = fixed(run.measures[Scores::LEVEL], 2);
+    let level = fixed(Measure::LevelError.of(&run.measures), 2);
     let cpu_s = run.cpu_s.map(|s| fixed(s, 0)).unwrap_or_default();
     let row = Row {
-        error: Some(run.measures[Scores::LOG_SPECTRAL]),
+        error: Some(Measure::LogSpectral.of(&run.measures)),
         size: Some(size[changed]),
         more: vec![
             ("level error, %", level),

@@ -74,7 +74,12 @@ pub(super) fn of_estimates(
     of_costs(&usual, &mut rows, bench);
     let mut plots = Vec::new();
     let n_sweeps = SWEEPS.len() as f64;
-    for (done, sweep) in SWEEPS.iter().enumerate() {
+    let n_wanted = if bench.wants_errors() {
+        SWEEPS.len()
+    } else {
+        0
+    };
+    for (done, sweep) in SWEEPS[..n_wanted].iter().enumerate() {
         let [quick, full] = sweep.values;
         let values = bench.effort.pick(quick, full);
         for (n, &value) in values.iter().enumerate() {
