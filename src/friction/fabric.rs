@@ -8,7 +8,7 @@ use crate::FrictionError;
 use crate::baseline::Baseline;
 use crate::cloth::PER_MM;
 use crate::example::{Example, SHORT_WINDOW, WINDOW};
-use crate::picture::strips;
+use crate::picture::middle_strip;
 use crate::predict::Predictor;
 use crate::runs::{Contestant, Taken};
 use crate::score::{Measure, Prediction, score};
@@ -106,13 +106,9 @@ impl Fabric {
         if self.trace.is_empty() || !self.trace.iter().all(is_friction) {
             return Err(wrong("its friction is none: give numbers from 0 up"));
         }
-        let mut strips = strips(&self.picture, self.px_per_mm);
-        if strips.is_empty() {
-            return Err(wrong(
-                "its picture is lower than 10 mm: give a larger one or its true scale",
-            ));
-        }
-        let strip = strips.swap_remove(strips.len() / 2);
+        let strip = middle_strip(&self.picture, self.px_per_mm).ok_or_else(|| {
+            wrong("its picture is lower than 10 mm: give a larger one or its true scale")
+        })?;
         let trace = self.resampled(strip.width());
         if trace.len() < SHORT_WINDOW {
             return Err(wrong(

@@ -128,17 +128,27 @@ fn figures(rows: &[Vec<f64>], apart: &Grid<f64>, brightness: f64) -> Vec<f64> {
         log(mean(across).sqrt()),
         brightness,
     ]);
-    let mut sorted: Vec<f64> = rows.iter().step_by(ROW_STEP).flatten().copied().collect();
-    sorted.sort_unstable_by(f64::total_cmp);
-    let last = sorted.len().saturating_sub(1) as f64;
-    let at = |share: f64| {
-        sorted
-            .get(to_index(share * last))
-            .copied()
-            .unwrap_or_default()
-    };
-    figures.extend(SHARES.map(at));
+    figures.extend(quantiles(
+        rows.iter().step_by(ROW_STEP).flatten().copied().collect(),
+    ));
     figures
+}
+
+/// What [`SHARES`] of values, which rise, are not above; 0 of none. Nothing is put in order that
+/// nobody asks for.
+fn quantiles(mut values: Vec<f64>) -> [f64; SHARES.len()] {
+    let last = values.len().saturating_sub(1) as f64;
+    let mut begun = 0;
+    SHARES.map(|share| {
+        let at = to_index(share * last);
+        let rest = &mut values[begun..];
+        if rest.is_empty() {
+            return 0.0;
+        }
+        let nth = at - begun;
+        begun = at;
+        *rest.select_nth_unstable_by(nth, f64::total_cmp).1
+    })
 }
 
 /// Powers of columns, each continued to a frame by mirroring: some of them stand for all.
@@ -158,25 +168,35 @@ fn across_spectra(rows: &[Vec<f64>]) -> Grid<f64> {
     powers
 }
 
-/// Strips of [`FINGER_ROWS`] rows at [`PER_MM`] from a picture of any scale (means over what a new
-/// pixel covers, or between pixels where it is coarser), from top to bottom.
-pub(crate) fn strips(picture: &Grid<f32>, px_per_mm: f64) -> Vec<Grid<f32>> {
-    let scaled = rescaled(picture, px_per_mm / PER_MM);
-    let part = |row: usize| scaled.part([0, row, scaled.width(), FINGER_ROWS]);
-    (0..scaled.height() / FINGER_ROWS)
-        .filter_map(|n| part(n * FINGER_ROWS))
-        .collect()
+/// The strip of [`FINGER_ROWS`] rows at [`PER_MM`] in the middle of a picture of any scale (means
+/// over what a new pixel covers, or between pixels where it is coarser): of those that lie above
+/// one another from the top, the middle one. None if the picture is lower.
+pub(crate) fn middle_strip(picture: &Grid<f32>, px_per_mm: f64) -> Option<Grid<f32>> {
+    let step = px_per_mm / PER_MM;
+    let is_same = (step - 1.0).abs() < 1e-9;
+    let height = if is_same {
+        picture.height()
+    } else {
+        to_index(picture.height() as f64 / step)
+    };
+    let n_strips = height / FINGER_ROWS;
+    let top = n_strips / 2 * FINGER_ROWS;
+    if n_strips == 0 {
+        None
+    } else if is_same {
+        picture.part([0, top, picture.width(), FINGER_ROWS])
+    } else {
+        Some(rescaled(picture, step, top))
+    }
 }
 
-/// A picture whose pixels are `step` times as far apart.
-fn rescaled(picture: &Grid<f32>, step: f64) -> Grid<f32> {
-    if (step - 1.0).abs() < 1e-9 {
-        return picture.clone();
-    }
-    let size = [picture.width(), picture.height()].map(|n| to_index(n as f64 / step));
+/// So many rows from `top` on of a picture whose pixels are `step` times as far apart: only what
+/// they cover is read.
+fn rescaled(picture: &Grid<f32>, step: f64, top: usize) -> Grid<f32> {
+    let [width, height] = [picture.width(), picture.height()];
     let half = 0.5 * (step - 1.0).max(0.0);
+    let middle = |at: usize| (at as f64 + 0.5) * step - 0.5;
     let along = |value: &dyn Fn(usize) -> f32, at: usize, n: usize| {
-        let middle = (at as f64 + 0.5) * step - 0.5;
         let n_points = to_index(2.0 * half.ceil()) + 1;
         let sum: f64 = (0..n_points)
             .map(|point| {
@@ -185,7 +205,7 @@ fn rescaled(picture: &Grid<f32>, step: f64) -> Grid<f32> {
                 } else {
                     half * (2.0 * point as f64 / (n_points - 1) as f64 - 1.0)
                 };
-                let place = (middle + shift).clamp(0.0, (n - 1) as f64);
+                let place = (middle(at) + shift).clamp(0.0, (n - 1) as f64);
                 let before = to_index(place).min(n.saturating_sub(2));
                 let share = place - before as f64;
                 let [a, b] = [before, (before + 1).min(n - 1)].map(|at| f64::from(value(at)));
@@ -194,10 +214,57 @@ fn rescaled(picture: &Grid<f32>, step: f64) -> Grid<f32> {
             .sum();
         to_single(sum / n_points as f64)
     };
-    let rows = Grid::from_fn(size[0], picture.height(), |column, row| {
-        along(&|at| picture.row(row)[at], column, picture.width())
+    let n_columns = to_index(width as f64 / step);
+    // A row to either side for what rounds there.
+    let first = to_index((middle(top) - half - 2.0).max(0.0));
+    let last = to_index(middle(top + FINGER_ROWS) + half + 2.0).min(height - 1);
+    let rows = Grid::from_fn(n_columns, last + 1 - first, |column, row| {
+        along(&|at| picture.row(first + row)[at], column, width)
     });
-    Grid::from_fn(size[0], size[1], |column, row| {
-        along(&|at| rows.row(at)[column], row, picture.height())
+    Grid::from_fn(n_columns, FINGER_ROWS, |column, row| {
+        along(&|at| rows.row(at - first)[column], top + row, height)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_middle_strip_lies_where_it_does_at_any_scale() {
+        let slope = |x: f64, y: f64| 0.2 + 1e-4 * x + 3e-4 * y;
+        for step in [0.5, 1.0, 1.7, 2.0] {
+            let side = to_index(700.0 * step);
+            let picture = Grid::from_fn(side, side, |x, y| {
+                to_single(slope(x as f64 / step, y as f64 / step))
+            });
+            let strip = middle_strip(&picture, step * PER_MM).unwrap();
+            assert_eq!((strip.width(), strip.height()), (700, FINGER_ROWS));
+            // Of five strips that lie above one another, the third.
+            let top = 2 * FINGER_ROWS;
+            let middle = 0.5 - 0.5 / step;
+            for (column, row) in [(10, 0), (350, 70), (690, FINGER_ROWS - 1)] {
+                let expected = slope(column as f64 + middle, (top + row) as f64 + middle);
+                let found = f64::from(strip.row(row)[column]);
+                assert!(
+                    (found - expected).abs() < 1e-6,
+                    "{step}: {found} {expected}"
+                );
+            }
+        }
+        let low = Grid::filled(600, 2 * FINGER_ROWS - 1, 0.5);
+        assert_eq!(middle_strip(&low, 2.0 * PER_MM), None, "lower than 10 mm");
+    }
+
+    #[test]
+    fn quantiles_are_those_of_values_in_order() {
+        let values = |n: usize| (0..n).map(|at| ((at * 37) % n) as f64).collect::<Vec<_>>();
+        let last = 1000.0;
+        assert_eq!(
+            quantiles(values(1001)),
+            SHARES.map(|share| (share * last).floor())
+        );
+        assert_eq!(quantiles(values(1)), [0.0; SHARES.len()]);
+        assert_eq!(quantiles(Vec::new()), [0.0; SHARES.len()]);
+    }
 }

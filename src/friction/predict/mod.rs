@@ -8,7 +8,7 @@ use selvedge_foundation::quantity::fixed;
 use crate::FrictionError;
 use crate::cloth::PER_MM;
 use crate::network::{OurNetwork, Size, Weights};
-use crate::picture::{Looks, N_BANDS, band_edges, strips};
+use crate::picture::{Looks, N_BANDS, band_edges, middle_strip};
 use crate::score::{Measures, Prediction, score};
 use crate::signal::{Course, FRAME, HOP, MAGNITUDE_SCALE, spectra};
 
@@ -147,11 +147,10 @@ impl Predictor {
         if !size_mm.iter().all(|mm| *mm <= LARGEST_MM) {
             return refused;
         }
-        let mut strips = strips(picture, px_per_mm);
-        if strips.is_empty() || strips[0].width() < FRAME {
+        let strip = middle_strip(picture, px_per_mm);
+        let Some(strip) = strip.filter(|strip| strip.width() >= FRAME) else {
             return refused;
-        }
-        let strip = strips.swap_remove(strips.len() / 2);
+        };
         let part = strip.part([0, 0, strip.width() / HOP * HOP, strip.height()]);
         Ok(part.unwrap_or(strip))
     }
