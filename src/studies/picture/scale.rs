@@ -12,6 +12,10 @@ use selvedge_foundation::numerics::Random;
 /// Periods that a side of the picture holds, however small it is.
 const N_PERIODS: f64 = 22.0;
 
+/// Threads that are so far apart, px, have their lattice within so many % of a period.
+const RESOLVED_PX: f64 = 4.0;
+const RESOLVED_PERCENT: f64 = 1.0;
+
 /// Lattices of pictures that are reduced until nothing is left of the threads.
 pub(crate) const STUDY: Study = Study {
     name: "picture-scale",
@@ -49,7 +53,7 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
          threads lie nearer together by √2 (plain, twills), √5 (satin of 5) and √8 or so \
          (satin of 8). Every picture holds 22 periods a side, 20 dB over the noise, pixels \
          as means of what they cover, threads turned anyhow. Below about two pixels no \
-         lattice is reported, on purpose."
+         lattice is reported, on purpose. Promised while threads are 4 px apart or more."
             .to_owned(),
     );
     let plot = chart(
@@ -107,6 +111,7 @@ fn row(weave: Binding, period_px: f64, bench: &Bench<'_>, points: &mut Vec<[f64;
     )
     .size((n_px * n_px) as f64)
     .error(100.0 * sum / f64::from(n_trials))
+    .promised((pitch_px >= RESOLVED_PX).then_some(RESOLVED_PERCENT))
     .cost(cost)
     .with("period_px", period_px)
     .number("thread_px", 3, pitch_px)
