@@ -105,6 +105,29 @@ impl Sample {
     }
 }
 
+/// Vertices times steps of a second of a cloth, which swings or hangs still beside open fingers:
+/// asked for, and stepped by its counters.
+pub(crate) fn stepped(swings: bool) -> Result<[u64; 2], ReportError> {
+    let sample = Sample {
+        n: 8,
+        n_fingers: if swings { 0 } else { 2 },
+        ..Sample::SHIRTING
+    };
+    let mut drape = sample.drape(
+        if swings { 80.0 } else { 0.0 },
+        (Integrator::Bdf2, Some(1e-3)),
+    )?;
+    let hands = pinch([100.0, 80.0, 0.0], 100.0);
+    let hands = &hands[..sample.n_fingers];
+    if !swings {
+        drape.place(hands);
+    }
+    (0..1000).try_for_each(|_| drape.step(hands))?;
+    let counters = drape.counters();
+    let vertices = (sample.n * sample.n) as u64;
+    Ok([counters.steps, counters.steps - counters.asleep].map(|steps| steps * vertices))
+}
+
 /// Two fingers at the same place of a grasp.
 fn pinch(centre_mm: [f64; 3], opening_mm: f64) -> [Hand; 2] {
     [Hand {
