@@ -14,7 +14,7 @@ use super::{CliError, signals};
 use selvedge_drape::{
     Drape, DrapeCounters, DrapeError, DrapeScene, Felt, Hand, HandPath, Integrator, test_fabric,
 };
-use selvedge_foundation::files::to_json_string;
+use selvedge_foundation::files::{read_text, to_json_string};
 use selvedge_foundation::numerics::to_whole;
 use selvedge_foundation::progress::Cancelled;
 use selvedge_foundation::quantity::fixed;
@@ -79,6 +79,8 @@ struct StatsFile<'a> {
     version: &'static str,
     scene: &'a Path,
     path: Option<&'a Path>,
+    /// Keys of figures that nobody measured.
+    plausible_figures: &'a [String],
     vertices: [usize; 2],
     integrator: &'static str,
     why: &'a str,
@@ -96,16 +98,18 @@ pub(super) fn run(args: &DrapeArgs) -> Result<(), CliError> {
     if let Some(DrapeCommand::Test { fabric }) = &args.command {
         return test(fabric);
     }
-    let Some(place) = args.scene.as_deref() else {
+    let Some(file) = &args.scene else {
         return Err(CliError::Input("no scene is named; give one".to_owned()));
     };
-    let scene = DrapeScene::read(place)?;
-    scene.notes().for_each(|note| terminal::notice(&note));
+    let scene = DrapeScene::from_text(&read_text(file)?, file.place())?;
+    scene.notes().for_each(terminal::notice);
     let mut drape = Drape::new(&scene, args.integrator, args.dt.map(|ms| 1e-3 * ms))?;
     let (integrator, why) = drape.integrator();
     let step_ms = 1e3 * drape.step_s();
+    let plausible = scene.plausible();
+    let plausible = plausible.map_or_else(String::new, |words| format!("; {words}"));
     terminal::notice(&format!(
-        "{} at {} ms: {why}",
+        "{} at {} ms: {why}{plausible}",
         integrator.name(),
         fixed(step_ms, 3)
     ));
@@ -136,7 +140,7 @@ pub(super) fn run(args: &DrapeArgs) -> Result<(), CliError> {
         ));
     }
     match &args.stats {
-        Some(place) => write_stats(args, place, &mut drape, energy),
+        Some(place) => write_stats((args, &scene), place, &mut drape, energy),
         None => Ok(()),
     }
 }
@@ -313,7 +317,7 @@ fn write_mesh(mesh: &mut TableOut, drape: &Drape) -> Result<(), CliError> {
 }
 
 fn write_stats(
-    args: &DrapeArgs,
+    (args, scene): (&DrapeArgs, &DrapeScene),
     place: &Path,
     drape: &mut Drape,
     [energy_start_j, energy_gained_j]: [f64; 2],
@@ -323,7 +327,11 @@ fn write_stats(
     let file = StatsFile {
         program: "selvedge",
         version: env!("CARGO_PKG_VERSION"),
-        scene: args.scene.as_deref().unwrap_or_else(|| Path::new("")),
+        scene: args
+            .scene
+            .as_ref()
+            .map_or_else(|| Path::new(""), InFile::place),
+        plausible_figures: scene.plausible_figures(),
         path: args.path.as_deref(),
         vertices: drape.grid(),
         integrator: integrator.name(),
@@ -350,7 +358,10 @@ fn test(fabric: &str) -> Result<(), CliError> {
         DrapeError::Textile(error) => CliError::Input(error.to_string()),
         other => other.into(),
     })?;
-    scene.notes().for_each(|note| terminal::notice(&note));
+    scene.notes().for_each(terminal::notice);
+    if let Some(words) = scene.plausible() {
+        terminal::notice(&words);
+    }
     let head = ["figure", "given", "found", "off %", "unit"].map(str::to_owned);
     let rows = test_fabric(&scene)?.into_iter().map(|figure| {
         let off = 100.0 * (figure.found / figure.given - 1.0);

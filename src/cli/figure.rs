@@ -10,6 +10,7 @@ use super::terminal::with_meter;
 use super::{CliError, output};
 use selvedge_experiment::ExperimentError;
 use selvedge_experiment::analysis::{self, Options};
+use selvedge_foundation::files::read_text;
 use selvedge_workbench::{FigureFiles, FigureOf, build_cache, exploration_figure};
 
 /// What is drawn, and where it goes.
@@ -40,8 +41,13 @@ pub(super) fn run(args: &FigureArgs) -> Result<(), CliError> {
     let files = if !is_recording && (is_log || args.what.is_dir()) {
         of_sessions(args)?
     } else {
+        let place = args.what.place().to_path_buf();
         let of = FigureOf {
-            scene: (!is_recording).then(|| args.what.to_path_buf()),
+            scene: if is_recording {
+                None
+            } else {
+                Some((read_text(&args.what)?, place))
+            },
             exploration: if is_recording {
                 Some(args.what.to_path_buf())
             } else {

@@ -175,6 +175,18 @@ impl Cloth {
         self.restart();
     }
 
+    /// Pulls what is pinned along the warp so many times as far from the middle.
+    pub(crate) fn pull(&mut self, times: f64) {
+        let mesh = &self.system.sheet.mesh;
+        let middle = 0.5 * mesh.size_m()[0];
+        for (x, is_pinned) in self.x.iter_mut().zip(&mesh.is_pinned) {
+            if *is_pinned {
+                x.x = middle + times * (x.x - middle);
+            }
+        }
+        self.restart();
+    }
+
     /// Forgets what was before: places or velocities were set from outside.
     pub(crate) fn restart(&mut self) {
         self.n_past = 0;

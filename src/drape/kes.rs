@@ -196,7 +196,7 @@ fn odd(figures: &Figures, (emt, lt, load): ([f64; 2], [f64; 2], f64), weight: f6
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Plausible {
     class: String,
-    keys: Vec<String>,
+    pub(crate) keys: Vec<String>,
 }
 
 impl Plausible {

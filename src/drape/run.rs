@@ -147,6 +147,11 @@ impl Drape {
         self.cloth.tilt(degrees);
     }
 
+    /// Pulls what holds it along its width so many times as far from the middle as at rest.
+    pub fn pull(&mut self, times: f64) {
+        self.cloth.pull(times);
+    }
+
     /// The longest explicit step with what is stretched now, s.
     pub fn limit_s(&self) -> f64 {
         self.cloth.limit_s()

@@ -53,6 +53,8 @@ pub(crate) struct FingerSpec {
     pub(crate) opening_mm: f64,
     /// It does what the first finger does.
     pub(crate) is_mirrored: bool,
+    /// A device of its own leads it, where there is one.
+    has_device: bool,
 }
 
 #[derive(Deserialize)]
@@ -280,9 +282,24 @@ impl DrapeScene {
         self.size_mm
     }
 
-    /// What is odd about its figures, and how many of them nobody measured: a line each.
-    pub fn notes(&self) -> impl Iterator<Item = String> + '_ {
-        self.notes.iter().cloned().chain(self.plausible.line())
+    /// What is odd about its figures: a line each.
+    pub fn notes(&self) -> impl Iterator<Item = &str> {
+        self.notes.iter().map(String::as_str)
+    }
+
+    /// How many of its figures nobody measured, in words; `None` where all are stated.
+    pub fn plausible(&self) -> Option<String> {
+        self.plausible.line()
+    }
+
+    /// The keys of those.
+    pub fn plausible_figures(&self) -> &[String] {
+        &self.plausible.keys
+    }
+
+    /// Whether its second finger is led by a device of its own, where there is one.
+    pub fn has_second_device(&self) -> bool {
+        self.fingers.iter().any(|finger| finger.has_device)
     }
 
     /// Whether anything holds it, so that it comes to rest.
@@ -320,15 +337,16 @@ impl FingerSpec {
                 return flaw("side", what, "give \"front\" or \"back\"");
             }
         };
-        let is_mirrored = match keys.mapping.as_deref() {
-            None | Some("path") => false,
-            Some("mirrored") if nth > 0 => true,
+        let [is_mirrored, has_device] = match keys.mapping.as_deref() {
+            None | Some("path") => [false; 2],
+            Some("mirrored") if nth > 0 => [true, false],
+            Some("device") if nth > 0 => [false, true],
             Some(mapping) => {
                 let what = format!("the mapping is \"{mapping}\"");
                 return flaw(
                     "mapping",
                     what,
-                    "give \"path\"; a second finger may be \"mirrored\"",
+                    "give \"path\"; a second finger may be \"mirrored\" or \"device\"",
                 );
             }
         };
@@ -348,6 +366,7 @@ impl FingerSpec {
             start_mm: keys.start_mm,
             opening_mm: keys.opening_mm,
             is_mirrored,
+            has_device,
         })
     }
 

@@ -108,5 +108,6 @@ pub fn studies() -> Vec<Study> {
         staircases::STUDY,
         savings::STUDY,
         stability::STUDY,
+        stability::SWEEPS,
     ]
 }

@@ -35,6 +35,8 @@ pub(crate) struct Since {
     pub(crate) faster: Vec<String>,
     /// Rows that both have.
     pub(crate) n_compared: usize,
+    /// Rows that both have a time of.
+    pub(crate) n_timed: usize,
     /// Rows that one of them has alone.
     pub(crate) n_alone: usize,
 }
@@ -67,9 +69,11 @@ impl Since {
             if are_errors_alike {
                 since.compare_numbers(before, row, &name);
             }
-            if let (Some(was), Some(is)) = (before.time, row.time)
-                && (is.cpu_low_s > was.cpu_high_s || is.cpu_high_s < was.cpu_low_s)
-            {
+            let (Some(was), Some(is)) = (before.time, row.time) else {
+                continue;
+            };
+            since.n_timed += 1;
+            if is.cpu_low_s > was.cpu_high_s || is.cpu_high_s < was.cpu_low_s {
                 let is_of_one = was.n_processes.min(is.n_processes) == 1;
                 let how = if is_of_one { ONE_PROCESS } else { "" };
                 changes.push((is.cpu_s / was.cpu_s, format!("{name}{how}")));
@@ -124,9 +128,11 @@ impl Since {
     /// As a part of the index.
     pub(crate) fn text(&self) -> String {
         let mut out = vec![format!("## Since {}\n", self.of)];
+        let n_apart = self.slower.len() + self.faster.len();
+        let share = 100.0 * (1.0 - n_apart as f64 / self.n_timed.max(1) as f64);
         out.push(format!(
             "{} rows compared, {} in one of the reports alone. A time counts as changed where the \
-             intervals of both reports are apart.\n",
+             intervals of both reports are apart: intervals of {share:.1} % overlap.\n",
             self.n_compared, self.n_alone
         ));
         for (what, lines) in [
@@ -215,7 +221,8 @@ mod tests {
         assert_eq!((since.n_compared, since.n_alone), (4, 2));
         let text = since.text();
         assert!(
-            text.contains("- Slower: 1\n  - made-up, m, slower"),
+            text.contains("- Slower: 1\n  - made-up, m, slower")
+                && text.contains("intervals of 50.0 % overlap"),
             "{text}"
         );
         // Memory, and times of one process.

@@ -16,9 +16,10 @@ pub(super) fn quick(study: &Study, seed: u64) -> Findings {
         .unwrap()
 }
 
-/// Two runs found the same, and no row lacks an error or a cost.
+/// Two runs found the same, no row lacks an error or a cost, and promises are made and kept.
 pub(super) fn assert_complete_and_same(first: &Findings, second: &Findings) {
     assert_eq!(first.rows.len(), second.rows.len());
+    assert_keeps_promises(first);
     for (a, b) in first.rows.iter().zip(&second.rows) {
         assert_eq!(
             (a.error, a.error_p99, &a.more),
@@ -29,6 +30,13 @@ pub(super) fn assert_complete_and_same(first: &Findings, second: &Findings) {
             "{a:?}"
         );
     }
+}
+
+/// Something is promised, and nothing that is promised is not kept.
+pub(super) fn assert_keeps_promises(findings: &Findings) {
+    let broken: Vec<&Row> = findings.broken().collect();
+    assert!(broken.is_empty(), "{broken:#?}");
+    assert!(findings.rows.iter().any(|row| row.promised.is_some()));
 }
 
 /// A study that does what it is told.

@@ -117,6 +117,23 @@ fn a_path_and_a_table_come_from_standard_input() {
         (by_stream.code, by_stream.out),
         (0, lab.run(&words("mds d.csv --dims 1")).out)
     );
+    // What a scene names lies beside where the command was given.
+    let scene = lab.read("a.scene.toml");
+    let drawn = fed("figure - --path a.csv --out page", &scene);
+    assert!(
+        drawn.code == 0 && lab.path("page.svg").exists(),
+        "{drawn:?}"
+    );
+    let hung = "name = \"a\"\nlibrary = \"nowhere\"\ntextile = \"denim\"\n";
+    let placed = scene.replace("library = \"", "library = \"nowhere/");
+    for (line, text) in [
+        ("figure - --path a.csv --out page", &*placed),
+        ("drape -", hung),
+    ] {
+        let said = fed(line, text);
+        let is_here = said.err.contains("nowhere") && !said.err.contains("/dev/");
+        assert!(said.code == 2 && is_here, "{line}: {said:?}");
+    }
 }
 
 #[test]

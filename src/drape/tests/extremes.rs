@@ -73,10 +73,7 @@ fn corners_pulled_to_three_times_their_distance_and_a_sudden_stiffness_are_held(
             let grid = ([8, 8], [0.2, 0.2]);
             let mut cloth = cloth(grid, fabric, &Pins::Corners, (Integrator::Bdf2, step_s));
             cloth.stepping.gain = crate::cloth::LIVE;
-            for corner in [56, 63] {
-                cloth.x[corner].x = 0.1 + 3.0 * (cloth.x[corner].x - 0.1);
-            }
-            cloth.restart();
+            cloth.pull(3.0);
             holds(&mut cloth, &[], &what);
             for stretch in &mut cloth.system.sheet.stretch {
                 stretch.tension = Tension::linear(10.0 * stiffness);

@@ -11,9 +11,25 @@ use selvedge_textile::Library;
 fn every_shipped_textile_has_figures_that_fit() {
     for id in Library::shipped().unwrap().ids() {
         let scene = DrapeScene::of_textile(id).unwrap();
-        let notes: Vec<String> = scene.notes().collect();
-        let plausible = |note: &String| note.contains(" of its figures are plausible ones of ");
-        assert!(notes.len() == 1 && plausible(&notes[0]), "{id}: {notes:?}");
+        let (notes, plausible) = (scene.notes().count(), scene.plausible().unwrap());
+        let is_told = plausible.contains(" of its figures are plausible ones of ");
+        assert!(notes == 0 && is_told, "{id}: {notes}, {plausible}");
+    }
+}
+
+#[test]
+fn a_second_finger_may_have_a_device_of_its_own() {
+    let finger = |mapping: &str| {
+        format!("[[finger]]\nmapping = \"{mapping}\"\nstart_mm = [9, 9, 0]\nopening_mm = 9\n")
+    };
+    for (second, has_device) in [("device", true), ("mirrored", false), ("path", false)] {
+        let text = format!(
+            "name = \"a\"\ntextile = \"denim\"\n{}{}",
+            finger("path"),
+            finger(second)
+        );
+        let scene = DrapeScene::from_text(&text, std::path::Path::new("a.drape.toml")).unwrap();
+        assert_eq!(scene.has_second_device(), has_device, "{second}");
     }
 }
 
@@ -62,6 +78,11 @@ fn wrong_scenes_name_the_line_and_the_mend() {
             "textile = \"denim\"\n[[finger]]\nmapping = \"mirrored\"\nstart_mm = [0, 0, 0]\n\
              opening_mm = 9\n",
             ":4: the mapping is \"mirrored\"",
+        ),
+        (
+            "textile = \"denim\"\n[[finger]]\nmapping = \"device\"\nstart_mm = [0, 0, 0]\n\
+             opening_mm = 9\n",
+            ":4: the mapping is \"device\"; give \"path\"",
         ),
     ] {
         std::fs::write(&path, format!("name = \"a\"\n{text}")).unwrap();

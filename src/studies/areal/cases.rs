@@ -1,4 +1,5 @@
-//! Reliefs that vary both ways: model cloths of the library, and random ones like weathered ground.
+//! Reliefs that vary both ways: model cloths of the library, a random one like weathered ground,
+//! and waves that grow across, of which every amplitude is known.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -6,15 +7,25 @@ use std::sync::Arc;
 use crate::{Effort, ReportError, textiles};
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_textile::Library;
-use selvedge_textile::surface::{Direction, HeightMap, Probe, Surface, SurfaceError};
+use selvedge_textile::surface::{
+    Direction, HeightMap, Probe, Surface, SurfaceError, WINDOW_LENGTH_MM,
+};
 
 /// The random relief's name.
 const RANDOM: &str = "random relief";
 /// Model cloths; the first when there is little time.
 const CLOTHS: [&str; 4] = ["wool-twill", "jute-plain", "silk-crepe", "denim"];
-/// Points of the random relief either way, and their distance, mm.
+/// The name of the waves.
+const WAVES: &str = "waves that grow across";
+/// Points of either relief either way, and the distance of the random one's, mm.
 const N_POINTS: usize = 500;
 const STEP_MM: f64 = 0.05;
+/// Points of the waves in a window, whose middle is one of them, and their distance, mm.
+const N_WINDOW: usize = 101;
+const WAVES_STEP_MM: f64 = WINDOW_LENGTH_MM / N_WINDOW as f64;
+/// Bins that the waves fall on, so far apart that none reaches another's, and their amplitudes in
+/// the middle, µm: so flat that a wire follows them from point to point.
+const LINES: [(u32, f64); 4] = [(2, 1.0), (6, 0.8), (13, 0.5), (31, 0.3)];
 /// Waves that the random relief is made of.
 const N_WAVES: usize = 200;
 /// Their wavenumbers, cycles/mm.
@@ -30,21 +41,23 @@ pub(super) struct Case {
     pub(super) economical: [Arc<Surface>; 2],
     /// At every point.
     pub(super) areal: Arc<Surface>,
+    /// Whether all amplitudes are known, along the warp.
+    pub(super) is_known: bool,
 }
 
 /// The cases of a study.
 pub(super) fn names(effort: Effort) -> Vec<&'static str> {
     let cloths = CLOTHS.into_iter().take(effort.pick(1, CLOTHS.len()));
-    cloths.chain([RANDOM]).collect()
+    cloths.chain([RANDOM, WAVES]).collect()
 }
 
 impl Case {
     pub(super) fn of(name: &str, seed: u64) -> Result<Self, ReportError> {
         let failed = textiles::wrong(name);
-        let map = if name == RANDOM {
-            random_relief(seed).map_err(&failed)?
-        } else {
-            textiles::relief(name, &Library::shipped()?.manifest(name)?.source)?
+        let map = match name {
+            RANDOM => random_relief(seed).map_err(&failed)?,
+            WAVES => waves().map_err(&failed)?,
+            _ => textiles::relief(name, &Library::shipped()?.manifest(name)?.source)?,
         };
         let wrong = |(_, error): (Direction, SurfaceError)| failed(error);
         let economical = |wire: Probe| {
@@ -59,8 +72,54 @@ impl Case {
                 economical(Probe::contactor()).map_err(wrong)?,
             ],
             areal: Arc::new(Surface::areal(&map, 0.0).map_err(wrong)?),
+            is_known: name == WAVES,
         })
     }
+}
+
+/// How much of their amplitude in the middle waves have at a place across, mm.
+fn grown(w_mm: f64) -> f64 {
+    0.5 + w_mm / (N_POINTS as f64 * WAVES_STEP_MM)
+}
+
+/// Waves along the warp whose amplitudes grow evenly across, so that a wire of any width that lies
+/// about a place reads that of its middle.
+fn waves() -> Result<HeightMap, SurfaceError> {
+    let height_um = |column: usize, row: usize| {
+        let turns = column as f64 / N_WINDOW as f64;
+        let wave = |&(bin, um): &(u32, f64)| um * (TAU * f64::from(bin) * turns).cos();
+        grown(row as f64 * WAVES_STEP_MM) * LINES.iter().map(wave).sum::<f64>()
+    };
+    let heights_um = Grid::from_fn(N_POINTS, N_POINTS, height_um);
+    HeightMap::new(heights_um, [WAVES_STEP_MM; 2])
+}
+
+/// `[A40, A320]` of the waves at a place across and a speed along the warp, µm, in closed form. Of
+/// a wave on a bin a Hamming window leaves 0.54² and twice 0.23² of its power, as parts of
+/// 0.54² + 0.46²/2, on that bin and the two beside it; the filters are the default's.
+pub(super) fn known_um(w_mm: f64, speed_mm_per_s: f64) -> [f64; 2] {
+    // The nearest point, the sample that its window begins at, and the middle of that window.
+    let n_points = ((N_POINTS - N_WINDOW) as f64 * WAVES_STEP_MM + 1e-6).floor() + 1.0;
+    let point = (w_mm + 0.5 + 1e-6).floor().rem_euclid(n_points);
+    let start = (point / WAVES_STEP_MM + 0.5).floor();
+    let middle_mm = (start + (N_WINDOW / 2) as f64) * WAVES_STEP_MM;
+    [40.0, 320.0].map(|band_hz: f64| {
+        let heard = |(bin, share): (u32, f64)| {
+            let hz = speed_mm_per_s * 0.23 * f64::from(bin);
+            let is_heard = 0.0 < hz && hz < 1000.0;
+            let octaves = (hz / band_hz).log2();
+            if is_heard {
+                share * (-octaves * octaves).exp2()
+            } else {
+                0.0
+            }
+        };
+        let of_wave = |&(bin, um): &(u32, f64)| {
+            let bins = [(bin - 1, 0.0529), (bin, 0.2916), (bin + 1, 0.0529)];
+            um * um * bins.map(heard).iter().sum::<f64>() / 0.3974
+        };
+        grown(middle_mm) * LINES.iter().map(of_wave).sum::<f64>().sqrt()
+    })
 }
 
 /// Points of a surface, of all directions that have their own.

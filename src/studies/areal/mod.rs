@@ -26,8 +26,9 @@ const SPEEDS_MM_PER_S: [f64; 2] = [20.0, 300.0];
 const LEAST_SHARE: f64 = 1e-3;
 /// Poses that a measurement of time goes through.
 const N_TIMED: usize = 16;
-/// The level error that tables promise, dB.
+/// The level error that tables promise, and the reference where all is known, dB.
 const PROMISED_DB: f64 = 0.05;
+const KNOWN_DB: f64 = 1e-9;
 
 /// Economical against areal, on model cloths and a random relief.
 pub(crate) const STUDY: Study = Study {
@@ -36,7 +37,8 @@ pub(crate) const STUDY: Study = Study {
     question: "How far is one profile a direction, repeated across, from spectra at every point, \
                and what do the points cost?",
     reference: "The areal surface of the same relief, rendered by reference: contactor by \
-                contactor.",
+                contactor; of waves that grow across the closed form of every contactor, which \
+                judges that reference too.",
     error: ("level error", "dB"),
     cost_of: "tick of 24 contactors",
     run,
@@ -73,17 +75,32 @@ struct Felt {
     /// Standard deviation of the level over the contactors of a display, dB, in the median over
     /// poses and bands: economical with the tester's wire, and areal.
     spread_db: [f64; 2],
-    /// Largest level error of the areal tables, dB.
+    /// Largest level errors of the areal tables, and of the reference where all is known, dB.
     table_db: f64,
+    reference_db: Option<f64>,
 }
 
 impl Felt {
     fn of(case: &Case, bench: &Bench<'_>) -> Result<Self, ReportError> {
         let mut random = Random::new(bench.seed).branch(&case.name);
         let n_poses = bench.effort.pick(40, 400);
-        let poses = poses_between(SPEEDS_MM_PER_S, n_poses, &mut random);
+        let mut poses = poses_between(SPEEDS_MM_PER_S, n_poses, &mut random);
+        if case.is_known {
+            for pose in &mut poses {
+                pose.velocity.y_mm_per_s = 0.0;
+            }
+        }
         let felt = |surface, method| amplitudes(surface, method, &poses);
-        let exact = felt(&case.areal, Method::Reference)?;
+        let reference = felt(&case.areal, Method::Reference)?;
+        let known = case.is_known.then(|| poses.iter().map(known).collect());
+        let largest = |most: f64, db: &f64| most.max(db.abs());
+        let worst_db = |found: &[Vec<[f64; 2]>], exact: &[Vec<[f64; 2]>]| {
+            errors_db_of_table(found, exact).iter().fold(0.0, largest)
+        };
+        let reference_db = known
+            .as_ref()
+            .map(|known: &Vec<_>| worst_db(&reference, known));
+        let exact = known.unwrap_or(reference);
         let [kes, narrow] = &case.economical;
         let economical = [
             felt(kes, Method::Reference)?,
@@ -91,10 +108,10 @@ impl Felt {
         ];
         let table = felt(&case.areal, Method::Table)?;
         let errors_db = economical.each_ref().map(|own| errors_db(own, &exact));
-        let largest = |most: f64, db: &f64| most.max(db.abs());
         Ok(Self {
             spread_db: [spread_db(&economical[0]), spread_db(&exact)],
-            table_db: errors_db_of_table(&table, &exact).iter().fold(0.0, largest),
+            table_db: worst_db(&table, &exact),
+            reference_db,
             errors_db,
             poses,
         })
@@ -121,7 +138,12 @@ impl Felt {
             .number("spread_db", 3, self.spread_db[1]);
         rows.push(row);
         let [kes, narrow] = &case.economical;
-        self.add_costs(rows, [kes, narrow, &case.areal], bench)
+        let mut rows = self.add_costs(rows, [kes, narrow, &case.areal], bench)?;
+        rows.extend(self.reference_db.map(|db| {
+            let row = Row::of("areal", "by reference", &case.name).error(db);
+            row.promised(KNOWN_DB)
+        }));
+        Ok(rows)
     }
 
     /// What a tick over each surface costs once all is made, also as a multiple of the first's;
@@ -181,6 +203,14 @@ impl Felt {
         };
         Series::of(name, Style::Dots, (0..=100).step_by(2).map(point))
     }
+}
+
+/// Amplitudes of all contactors at a pose along the warp of the waves, µm.
+fn known(pose: &Pose) -> Vec<[f64; 2]> {
+    let speed_mm_per_s = pose.velocity.x_mm_per_s.abs();
+    let offsets = textiles::exeter().offsets;
+    let at = |offset| cases::known_um((pose.position + offset).y_mm, speed_mm_per_s);
+    offsets.into_iter().map(at).collect()
 }
 
 fn magnitudes(errors: &[f64]) -> Vec<f64> {

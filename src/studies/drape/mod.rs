@@ -27,6 +27,8 @@ pub(crate) struct Sample {
     pub(crate) density_kg_per_m2: f64,
     /// Stiffness of its yarns if they are straight springs, N/m; else they are a shirting's.
     pub(crate) stiffness_n_per_m: Option<f64>,
+    /// Rigidity of bending, gf·cm²/cm.
+    rigidity: f64,
     n_fingers: usize,
     /// Air drags it, and it has hysteresis.
     is_lossy: bool,
@@ -38,6 +40,7 @@ impl Sample {
         pins: "top",
         density_kg_per_m2: 0.2,
         stiffness_n_per_m: None,
+        rigidity: 0.1,
         n_fingers: 0,
         is_lossy: false,
     };
@@ -62,7 +65,11 @@ impl Sample {
         (integrator, step_s): (Integrator, Option<f64>),
     ) -> Result<DrapeScene, ReportError> {
         let Self {
-            n, pins, is_lossy, ..
+            n,
+            pins,
+            rigidity,
+            is_lossy,
+            ..
         } = self;
         let weight = 100.0 * self.density_kg_per_m2;
         // A straight line of 5 % at whatever load makes this stiffness; 1 gf/cm is 0.980665 N/m.
@@ -81,7 +88,7 @@ impl Sample {
             "name = \"Studied\"\nsize_mm = [200.0, 200.0]\ngrid = [{n}, {n}]\npins = \"{pins}\"\n\
              air = {is_lossy}\nhysteresis = {is_lossy}\nintegrator = \"{integrator}\"\n{step}\
              [measured]\nweight_mg_per_cm2 = {weight:e}\nemt_percent = 5.0\n\
-             {tension}\ng_gf_per_cm_deg = 0.5\nb_gf_cm2_per_cm = 0.1\nt0_mm = 0.5\n\
+             {tension}\ng_gf_per_cm_deg = 0.5\nb_gf_cm2_per_cm = {rigidity}\nt0_mm = 0.5\n\
              rt_percent = 60.0\n2hg_gf_per_cm = 0.8\n2hg5_gf_per_cm = 1.6\n\
              2hb_gf_cm_per_cm = 0.03\n"
         );
@@ -98,6 +105,29 @@ impl Sample {
     }
 }
 
+/// Vertices times steps of a second of a cloth, which swings or hangs still beside open fingers:
+/// asked for, and stepped by its counters.
+pub(crate) fn stepped(swings: bool) -> Result<[u64; 2], ReportError> {
+    let sample = Sample {
+        n: 8,
+        n_fingers: if swings { 0 } else { 2 },
+        ..Sample::SHIRTING
+    };
+    let mut drape = sample.drape(
+        if swings { 80.0 } else { 0.0 },
+        (Integrator::Bdf2, Some(1e-3)),
+    )?;
+    let hands = pinch([100.0, 80.0, 0.0], 100.0);
+    let hands = &hands[..sample.n_fingers];
+    if !swings {
+        drape.place(hands);
+    }
+    (0..1000).try_for_each(|_| drape.step(hands))?;
+    let counters = drape.counters();
+    let vertices = (sample.n * sample.n) as u64;
+    Ok([counters.steps, counters.steps - counters.asleep].map(|steps| steps * vertices))
+}
+
 /// Two fingers at the same place of a grasp.
 fn pinch(centre_mm: [f64; 3], opening_mm: f64) -> [Hand; 2] {
     [Hand {
@@ -106,12 +136,10 @@ fn pinch(centre_mm: [f64; 3], opening_mm: f64) -> [Hand; 2] {
     }; 2]
 }
 
-/// Between vertices of two cloths of one grid, rms, mm.
-fn off_mm(a: &Drape, b: &Drape) -> f64 {
-    let apart = a
-        .places_mm()
-        .zip(b.places_mm())
-        .map(|(a, b)| distance(a, b));
+/// From vertices of a cloth to where they should be, rms, mm.
+fn off_mm(drape: &Drape, truth_mm: &[[f64; 3]]) -> f64 {
+    let pairs = drape.places_mm().zip(truth_mm);
+    let apart = pairs.map(|(found, truth)| distance(found, *truth));
     rms(&apart.collect::<Vec<f64>>())
 }
 

@@ -45,10 +45,11 @@ pub(crate) enum Deed {
     FarTarget,
     Stiffens,
     Smallest,
+    Torn,
 }
 
 impl Deed {
-    pub(crate) const ALL: [Self; 7] = [
+    pub(crate) const ALL: [Self; 8] = [
         Self::Swing,
         Self::Fall,
         Self::PadsCross,
@@ -56,6 +57,7 @@ impl Deed {
         Self::FarTarget,
         Self::Stiffens,
         Self::Smallest,
+        Self::Torn,
     ];
 
     fn name(self) -> &'static str {
@@ -67,13 +69,17 @@ impl Deed {
             Self::FarTarget => "a hand 1e9 mm away",
             Self::Stiffens => "ten times stiffer at once",
             Self::Smallest => "2 × 2 grid",
+            Self::Torn => "corners three times as far apart",
         }
     }
 
     pub(crate) fn sample(self) -> Sample {
         Sample {
             n: if self == Self::Smallest { 2 } else { 8 },
-            pins: if self == Self::Fall { "corners" } else { "top" },
+            pins: match self {
+                Self::Fall | Self::Torn => "corners",
+                _ => "top",
+            },
             n_fingers: match self {
                 Self::PadsCross | Self::NoNumber | Self::FarTarget => 2,
                 _ => 0,
@@ -227,6 +233,9 @@ fn case(
     let row = Row::of(integrator.name(), format!("{step_ms} ms"), what);
     let stepped = (integrator, Some(1e-3 * step_ms));
     let mut drape = deed.start(sample).drape(tilt_deg, stepped)?;
+    if deed == Deed::Torn {
+        drape.pull(3.0);
+    }
     let mut start_j = left_j(&mut drape);
     let hands = deed.hands();
     let (mut gained, mut put_in_j) = (0.0_f64, 0.0_f64);

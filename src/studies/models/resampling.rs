@@ -13,6 +13,8 @@ const N_FINE: usize = 4600;
 
 /// A way to resample to `N_FINE` samples.
 type Way = fn(&[f64]) -> Vec<f64>;
+/// The largest rms error, as a part of the rms, of waves so many steps long: in closed form.
+type Bound = fn(f64) -> f64;
 
 /// Error of resampling by the step of the original, and what it costs.
 pub(crate) const STUDY: Study = Study {
@@ -27,10 +29,15 @@ pub(crate) const STUDY: Study = Study {
 };
 
 fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
-    let ways: [(&str, Way); 3] = [
-        ("nearest sample", nearest),
-        ("straight lines", lines),
-        ("Fourier", fourier),
+    let ways: [(&str, Way, Bound); 3] = [
+        // What a wave changes by in up to half a step, and what it bends by within one.
+        ("nearest sample", nearest, |steps| {
+            TAU / steps / 12.0_f64.sqrt()
+        }),
+        ("straight lines", lines, |steps| {
+            (TAU / steps).powi(2) / 120.0_f64.sqrt()
+        }),
+        ("Fourier", fourier, |_| 1e-11),
     ];
     let mut rows = Vec::new();
     for (done, shortest_mm) in [1.25, 0.5].into_iter().enumerate() {
@@ -42,10 +49,13 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
             .pick(vec![40, 200, 1000], vec![40, 100, 200, 400, 1000, 2000]);
         for n in counts {
             let coarse = waves.sampled(n);
-            for (method, way) in ways {
-                let setting = format!("{} mm", LENGTH_MM / n as f64);
+            let step_mm = LENGTH_MM / n as f64;
+            for (method, way, bound) in ways {
+                let setting = format!("{step_mm} mm");
                 let row = Row::of(method, setting, format!("waves down to {shortest_mm} mm"));
                 let row = row.error(apart_percent(&way(&coarse), &truth));
+                let steps = shortest_mm / step_mm;
+                let row = row.promised((steps > 2.0).then(|| 100.0 * bound(steps)));
                 rows.push(row.cost(bench.time(1, || way(&coarse))));
             }
         }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::Findings;
-use crate::tests::quick;
+use crate::tests::{assert_keeps_promises, quick};
 use selvedge_foundation::progress::thread_cpu_seconds;
 
 fn error(findings: &Findings, method: &str, setting: &str, case: &str) -> f64 {
@@ -36,6 +36,7 @@ fn every_quick_study_repeats_and_keeps_its_promises() {
 #[test]
 fn resampling_by_the_transform_is_exact_and_lines_fall_with_the_square() {
     let findings = quick(&RESAMPLING, 3);
+    assert_keeps_promises(&findings);
     let case = "waves down to 1.25 mm";
     assert!(
         error(&findings, "Fourier", "0.1 mm", case) < 1e-9,

@@ -52,6 +52,8 @@ pub(super) const ESTIMATES: [Estimate; 5] = [
     }),
 ];
 
+/// What the whole pipeline keeps within on usual pictures, in the mean, px.
+const USUAL_PX: f64 = 0.25;
 /// Vectors with a smaller sine of the angle between them are taken as parallel.
 const PARALLEL: f64 = 0.2;
 
@@ -122,7 +124,11 @@ fn of_pictures(
     };
     let pairs = estimates.iter().zip(tallies);
     pairs
-        .map(|((name, _), tally)| tally.row(name, case.clone(), value))
+        .map(|((name, _), tally)| {
+            let is_promised = *name == ESTIMATES[0].0 && value.is_nan();
+            let row = tally.row(name, case.clone(), value);
+            row.promised(is_promised.then_some(USUAL_PX))
+        })
         .collect()
 }
 

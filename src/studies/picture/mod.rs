@@ -45,7 +45,7 @@ pub(crate) fn analysed(luminance: &Grid<f64>) -> Option<Analysis> {
 
 /// How far a lattice is from the truth, as a share of the truth's shorter vector; 1 of none, and
 /// of what is farther than that.
-fn share_off(truth: &Basis, found: Option<Basis>) -> f64 {
+pub(crate) fn share_off(truth: &Basis, found: Option<Basis>) -> f64 {
     let off = found.map_or(f64::INFINITY, |found| {
         truth.distance_to(&found.reduced()) / truth.shorter()
     });

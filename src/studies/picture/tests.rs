@@ -25,6 +25,7 @@ pub(super) fn quick(study: &Study) -> Findings {
         );
     }
     println!("{}", findings.notes.join("\n"));
+    assert_eq!(findings.n_broken(), 0);
     findings
 }
 

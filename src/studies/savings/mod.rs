@@ -12,14 +12,16 @@ mod sinks;
 use needed::Needed;
 use scenes::Case;
 
+use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use super::{Bench, Findings, ReportError, Row, Study, textiles};
 use selvedge_foundation::geometry::Displacement;
 use selvedge_render::array::Method;
 use selvedge_render::scene::{ExplorationPath, LoadedScene, PathRow, PlacedTextile};
 use selvedge_render::{Counters, Rule};
-use selvedge_textile::surface::N_BINS;
+use selvedge_textile::surface::{Direction, N_BINS};
 
 /// Methods whose rules are counted: what leaves out bins, and what looks powers up.
 const METHODS: [Method; 2] = [Method::Banded, Method::Table];
@@ -76,8 +78,12 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
         }
     }
     let idle = idle_rules(&rows);
+    rows.push(shared_row(
+        cases.iter().max_by_key(|case| case.scene.textiles.len()),
+    )?);
     rows.extend(library_rows()?);
     rows.extend(sinks::rows()?);
+    rows.extend(asleep_rows()?);
     let notes = Rule::ALL.map(|rule| format!("{}: {}", rule.name(), rule.what()));
     let idle = format!(
         "Rules that leave nothing out on any of these scenes: {}. They stand for what scenes at \
@@ -152,6 +158,46 @@ fn work_of(rule: Rule, case: &Case, (counters, needed): (&Counters, &Needed)) ->
         needed,
         done: asked - left_out(rule),
     }
+}
+
+/// Bytes of the spectra of all textiles of a scene, of those that are different, and held.
+fn shared_row(case: Option<&Case>) -> Result<Row, ReportError> {
+    let case = case.ok_or_else(|| ReportError::Study("no scene".to_owned()))?;
+    let held = textiles::prepared(&case.scene, Method::Reference)?.n_bytes();
+    let placed = case.scene.textiles.iter();
+    let spectra = placed.flat_map(|one| Direction::ALL.map(|side| one.surface.spectra(side)));
+    let (mut asked, mut different) = (0, BTreeMap::new());
+    for one in spectra {
+        asked += one.n_bytes() as u64;
+        different.insert(Arc::as_ptr(one), one.n_bytes() as u64);
+    }
+    let work = Work {
+        unit: "bytes of spectra",
+        asked,
+        needed: Some(different.values().sum()),
+        done: held as u64,
+    };
+    Ok(work.row(("scene", "shared spectra"), case.name, true))
+}
+
+/// Vertices of a cloth in a second, and those that were stepped: hanging still, and swinging.
+fn asleep_rows() -> Result<[Row; 2], ReportError> {
+    let row = |swings: bool| {
+        let [asked, done] = crate::drape::stepped(swings)?;
+        let work = Work {
+            unit: "vertices stepped",
+            asked,
+            needed: swings.then_some(asked),
+            done,
+        };
+        let case = if swings {
+            "a cloth that swings"
+        } else {
+            "a cloth that hangs still"
+        };
+        Ok::<_, ReportError>(work.row(("cloth", "asleep"), case, swings))
+    };
+    Ok([row(false)?, row(true)?])
 }
 
 /// Textiles that the library knows, that a scene places and that an exploration feels, and what is

@@ -8,7 +8,7 @@ use crate::tests::quick;
 fn every_rule_is_counted_on_every_scene_and_does_what_is_needed() {
     let findings = quick(&STUDY, 1);
     let cases = scenes::cases(Effort::Quick).unwrap();
-    assert_eq!(findings.rows.len(), cases.len() * (12 + 10) + 2 + 4);
+    assert_eq!(findings.rows.len(), cases.len() * (12 + 10) + 1 + 2 + 4 + 2);
     for row in &findings.rows {
         assert_ne!(row.is_kept(), Some(false), "{row:?}");
         let n = |column: &str| row.further_number(column).unwrap();
@@ -18,6 +18,11 @@ fn every_rule_is_counted_on_every_scene_and_does_what_is_needed() {
     }
     let unread = findings.rows.iter().find(|row| row.setting == "never felt");
     assert_eq!(unread.unwrap().further("left_out"), "15");
+    let slept = findings.rows.iter().find(|row| row.setting == "asleep");
+    assert!(
+        slept.unwrap().further_number("left_out") > Some(0.0),
+        "it sleeps after a while"
+    );
     let named = findings.notes.last().unwrap();
     assert!(named.contains("any of these scenes: too fast."), "{named}");
 }

@@ -8,7 +8,7 @@ use selvedge_foundation::numerics::ode::StepMethod;
 /// Drive codes of an array at its loudest.
 const LOUDEST: [[u16; 2]; 24] = [[u16::MAX; 2]; 24];
 /// A distance that no energy of this drive reaches, µm.
-const TOO_FAR_UM: f64 = 1e5;
+pub(super) const TOO_FAR_UM: f64 = 1e5;
 
 /// Stiffness, sharpness and drive.
 pub(super) fn cases() -> Vec<Case> {
@@ -33,7 +33,7 @@ pub(super) fn cases() -> Vec<Case> {
     }
 }
 
-fn loaded(skin: Skin, quality: f64) -> ContactorModel {
+pub(super) fn loaded(skin: Skin, quality: f64) -> ContactorModel {
     ContactorModel {
         quality,
         skin,
@@ -41,19 +41,24 @@ fn loaded(skin: Skin, quality: f64) -> ContactorModel {
     }
 }
 
-/// A held sine of 40 and 320 Hz at the samples, against its line and images through |H|.
-fn sharp_and_stiff() -> Verdict {
-    let model = loaded(Skin::bonded(1e5, 0.0), ContactorModel::MAX_QUALITY);
-    let step = propagator(&model, StepMethod::ExactHold, SAMPLE_S);
-    let step = step.ok_or_else(|| failed("no step"))?;
+/// A held sine of 40 and 320 Hz at the samples, against its line and images through |H|: how far
+/// it is off, and by how much a step lets what rings grow.
+pub(super) fn held_off(model: &ContactorModel) -> Option<[f64; 2]> {
+    let step = propagator(model, StepMethod::ExactHold, SAMPLE_S)?;
     let mut worst = 0.0_f64;
     for frequency_hz in CARRIERS_HZ {
         let angle = std::f64::consts::TAU * frequency_hz * SAMPLE_S;
-        let found = step.response(angle).ok_or_else(|| failed("a pole"))?;
-        let closed = held_response(&model, frequency_hz, SAMPLE_S);
+        let found = step.response(angle)?;
+        let closed = held_response(model, frequency_hz, SAMPLE_S);
         let off = (1e6 * found[ContactorModel::PIN][0] - closed).norm() / closed.norm();
         worst = worst.max(off);
     }
+    Some([worst, step.growth()])
+}
+
+fn sharp_and_stiff() -> Verdict {
+    let model = loaded(Skin::bonded(1e5, 0.0), ContactorModel::MAX_QUALITY);
+    let [worst, _] = held_off(&model).ok_or_else(|| failed("no step, or a pole"))?;
     verdict(worst <= 1e-9, format!("{worst:.1e} off"))
 }
 
@@ -74,38 +79,43 @@ fn every_stiffness() -> Verdict {
     verdict(worst < 1e-9, came_back)
 }
 
-fn lifts_off() -> Verdict {
-    let (mut most_um, mut shares) = (0.0_f64, Vec::new());
-    // Pressed in a little, and only just touched: without a preload the skin is off whenever the
-    // pin moves away from it, and on when it comes back.
-    for preload_um in [1.0, 0.0] {
-        let skin = Skin {
-            preload_um: Some(preload_um),
-            ..Skin::bonded(1e9, 0.0)
-        };
-        let model = loaded(skin, ContactorModel::MAX_QUALITY);
-        let mut plant = ActuatorModel::new(&model, LOUDEST.len()).map_err(failed)?;
-        let (mut lost, mut n) = (0.0, 0.0);
-        for _ in 0..20 {
-            for one in &plant.tick(&LOUDEST, 60.0).contactors {
-                if !(one.peak_um.is_finite() && one.current_rms_ma.is_finite()) {
-                    return Err(format!("not finite: {one:?}"));
-                }
-                most_um = most_um.max(one.peak_um);
-                lost += one.lost_share;
-                n += 1.0;
+/// Full drive against skin that is pressed in by so much: the farthest any pin goes, µm, and the
+/// share of the time that skin is off.
+pub(super) fn rattled(stiffness: f64, preload_um: f64) -> Result<[f64; 2], String> {
+    let skin = Skin {
+        preload_um: Some(preload_um),
+        ..Skin::bonded(stiffness, 0.0)
+    };
+    let model = loaded(skin, ContactorModel::MAX_QUALITY);
+    let mut plant = ActuatorModel::new(&model, LOUDEST.len()).map_err(failed)?;
+    let (mut most_um, mut lost, mut n) = (0.0_f64, 0.0, 0.0);
+    for _ in 0..20 {
+        for one in &plant.tick(&LOUDEST, 60.0).contactors {
+            if !(one.peak_um.is_finite() && one.current_rms_ma.is_finite()) {
+                return Err(format!("not finite: {one:?}"));
             }
+            most_um = most_um.max(one.peak_um);
+            lost += one.lost_share;
+            n += 1.0;
         }
-        shares.push(lost / n);
     }
-    let opens_and_closes = shares[1] > 0.0 && shares[1] < 1.0;
-    let percent = shares.iter().map(|share| format!("{:.0}", 100.0 * share));
-    let percent: Vec<String> = percent.collect();
+    Ok([most_um, lost / n])
+}
+
+/// Pressed in a little, and only just touched: without a preload the skin is off whenever the pin
+/// moves away from it, and on when it comes back.
+fn lifts_off() -> Verdict {
+    let [[pressed_um, seldom], [most_um, often]] = [rattled(1e9, 1.0)?, rattled(1e9, 0.0)?];
+    let most_um = most_um.max(pressed_um);
+    let percent = [seldom, often].map(|share| format!("{:.0}", 100.0 * share));
     let came_back = format!(
         "at most {most_um:.0} µm; off for {} % of the time",
         percent.join(" and ")
     );
-    verdict(opens_and_closes && most_um < TOO_FAR_UM, came_back)
+    verdict(
+        0.0 < often && often < 1.0 && most_um < TOO_FAR_UM,
+        came_back,
+    )
 }
 
 fn no_skin() -> Verdict {

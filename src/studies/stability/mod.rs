@@ -22,7 +22,10 @@ mod pointer;
 mod scene;
 mod shading;
 mod stylus;
+mod sweeps;
 mod tuning;
+
+pub(crate) use sweeps::SWEEPS;
 
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::thread;

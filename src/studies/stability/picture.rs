@@ -42,7 +42,7 @@ pub(super) fn cases() -> Vec<Case> {
 }
 
 /// Waves of these periods (px along x and y; 0: none along it).
-fn waves(periods: [[f64; 2]; 2]) -> Grid<f64> {
+pub(super) fn waves(periods: [[f64; 2]; 2]) -> Grid<f64> {
     let mut grid = Grid::filled(N, N, 0.5);
     for row in 0..N {
         for (column, value) in grid.row_mut(row).iter_mut().enumerate() {
@@ -57,9 +57,9 @@ fn waves(periods: [[f64; 2]; 2]) -> Grid<f64> {
     grid
 }
 
-type Answer = Result<[[f64; 2]; 2], NoLattice>;
+pub(super) type Answer = Result<[[f64; 2]; 2], NoLattice>;
 
-fn answer(luminance: &Grid<f64>) -> Result<Answer, String> {
+pub(super) fn answer(luminance: &Grid<f64>) -> Result<Answer, String> {
     let found = analysed(luminance)
         .ok_or_else(|| failed("cancelled"))?
         .found;

@@ -32,13 +32,13 @@ pub(super) fn cases() -> Vec<Case> {
     }
 }
 
-/// A tip that falls 1 mm onto a wall.
-fn falling(
+/// A tip over a wall.
+pub(super) fn fall(
     stiffness: f64,
     method: Stepper,
     rate_hz: f64,
     sampling: Option<Sampling>,
-) -> Result<StylusRun, RenderError> {
+) -> Result<StylusSetup, RenderError> {
     let law = ContactLaw {
         stiffness_n_per_m: stiffness,
         ..ContactLaw::default()
@@ -46,7 +46,22 @@ fn falling(
     let contact = Contact::new(&Relief::flat(), Tip::stylus(0.0), law, Friction::none())?;
     let mut setup = StylusSetup::of(contact, method, rate_hz);
     setup.sampling = sampling;
+    Ok(setup)
+}
+
+/// A tip that falls 1 mm.
+pub(super) fn fallen(setup: StylusSetup) -> Result<StylusRun, RenderError> {
     StylusRun::new(setup, [0.0; 2], StylusStart::Above(1.0))
+}
+
+/// A tip that falls 1 mm onto a wall.
+fn falling(
+    stiffness: f64,
+    method: Stepper,
+    rate_hz: f64,
+    sampling: Option<Sampling>,
+) -> Result<StylusRun, RenderError> {
+    fallen(fall(stiffness, method, rate_hz, sampling)?)
 }
 
 /// Of 350 cases 257 are bounded; refused are explicit steps that are too long, and what is sampled

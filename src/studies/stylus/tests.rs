@@ -1,13 +1,12 @@
 //! What the studies of the stylus promise, they keep; and methods differ as they should.
 
 use super::*;
-use crate::tests::quick;
+use crate::tests::{assert_keeps_promises, quick};
 
 #[test]
 fn exact_steps_keep_their_promise_and_others_grow_or_come_near() {
     let findings = quick(&STUDY, 1);
-    let broken: Vec<&Row> = findings.broken().collect();
-    assert!(broken.is_empty(), "{broken:#?}");
+    assert_keeps_promises(&findings);
     let of = |method: Stepper, case: &str| {
         let is_it = |row: &&Row| {
             row.method == method.name() && row.case.contains(case) && row.setting == "1000 Hz"
@@ -40,8 +39,7 @@ fn exact_steps_keep_their_promise_and_others_grow_or_come_near() {
 #[test]
 fn limits_are_the_known_ones_and_faster_sampling_buzzes_less() {
     let findings = quick(&LIMITS, 1);
-    let broken: Vec<&Row> = findings.broken().collect();
-    assert!(broken.is_empty(), "{broken:#?}");
+    assert_keeps_promises(&findings);
     let noise: Vec<f64> = findings
         .rows
         .iter()

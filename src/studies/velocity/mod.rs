@@ -91,7 +91,11 @@ fn on_pointer(
             }
             all.add(&tally);
             let case = format!("{}; {}", pointer.label, stroke.label);
-            rows.push(row(method, case, &tally, cost));
+            let is_promised = stroke.label == strokes::STEADY.label
+                && method == VelocityMethod::default()
+                && !pointer.is_bursty();
+            let row = row(method, case, &tally, cost);
+            rows.push(row.promised(is_promised.then(verdict::steady_mm_per_s)));
         }
         let case = format!("{}; all strokes", pointer.label);
         rows.push(row(method, case, &all, cost));

@@ -3,7 +3,7 @@
 use crate::chart::{chart, place};
 use selvedge_chart::{Axis, Chart, Series, Style};
 use selvedge_engine::VelocityMethod;
-use selvedge_foundation::quantity::{fixed, time_span, with_unit};
+use selvedge_foundation::quantity::{factor_of_gain, fixed, time_span, with_unit};
 
 use super::Outcome;
 use super::candidates::setting;
@@ -14,6 +14,11 @@ use super::tally::Tally;
 const STEADY_DB: f64 = 1.0;
 /// Methods that break are not drawn: beyond this the axis would show nothing else, mm/s.
 const DRAWN_MM_PER_S: f64 = 1000.0;
+
+/// The same as an error of the steady stroke's velocity, mm/s.
+pub(super) fn steady_mm_per_s() -> f64 {
+    100.0 * (factor_of_gain(STEADY_DB) - 1.0)
+}
 
 /// Error against delay, over all pointers and for each.
 pub(super) fn plots(results: &[Outcome], pointers: &[Pointer]) -> Vec<(String, Chart)> {
@@ -104,6 +109,10 @@ pub(super) fn notes(results: &[Outcome]) -> Vec<String> {
          the age of the samples too. Levels are compared from 10 mm/s up."
             .to_owned(),
     );
+    notes.push(format!(
+        "Promised is {within}, rms, of the default on the steady stroke, unless samples come in \
+         bursts."
+    ));
     notes
 }
 

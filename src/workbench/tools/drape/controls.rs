@@ -142,8 +142,13 @@ fn show_cloths(ui: &mut Ui, draping: &mut Draping, context: &mut PaneContext<'_>
         note(ui, why, Tone::Wrong);
     }
     if let Some(facts) = draping.motion.facts.cloths.get(draping.look.cloth) {
-        for words in facts.scene.notes().chain(facts.silent.clone()) {
-            note(ui, &words, Tone::Quiet);
+        let plausible = facts.scene.plausible();
+        let told = plausible
+            .as_deref()
+            .into_iter()
+            .chain(facts.silent.as_deref());
+        for words in facts.scene.notes().chain(told) {
+            note(ui, words, Tone::Quiet);
         }
         note(ui, &facts.stepping, Tone::Quiet);
     }

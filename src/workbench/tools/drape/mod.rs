@@ -43,6 +43,7 @@ use crate::tools::drape::hung::{Base, Chosen, ClothChoice, OtherTextile, Second}
 use crate::tools::drape::look::Look;
 use crate::tools::drape::motion::Motion;
 use crate::tools::drape::through::ThroughDevice;
+use selvedge_drape::DrapeScene;
 
 /// Most cloths side by side.
 pub(crate) const MAX_CLOTHS: usize = 5;
@@ -80,6 +81,12 @@ impl Draping {
 
     /// Hangs another scene's cloth in place of all.
     pub(crate) fn hang(&mut self, base: Base) {
+        // What cannot be read is told where it is hung.
+        if let Base::File(path) = &base
+            && DrapeScene::read(path).is_ok_and(|scene| scene.has_second_device())
+        {
+            self.chosen.second = Second::Device;
+        }
         self.chosen.base = base;
         self.chosen.cloths = vec![ClothChoice::default()];
         self.look = Look {

@@ -37,8 +37,8 @@ const MAP_PX: [f64; 3] = [300.0, 690.0, 450.0];
 /// What is drawn.
 #[derive(Debug, Clone)]
 pub struct FigureOf {
-    /// The scene's file; `None`: the one that the recording was made in.
-    pub scene: Option<PathBuf>,
+    /// The text of the scene's file and its place; `None`: the one that the recording was made in.
+    pub scene: Option<(String, PathBuf)>,
     /// A recording's folder or a path file; `None`: the first recording that the scene names.
     pub exploration: Option<PathBuf>,
     /// The contactor whose spectrum is drawn, among those of all displays one after the other;
@@ -86,8 +86,8 @@ pub fn exploration_figure(
 
 /// The scene that is given, or the one that the recording says that it was made in.
 fn scene_of(of: &FigureOf, cache: Option<&BuildCache>) -> Result<LoadedScene, AppError> {
-    if let Some(scene) = &of.scene {
-        return Ok(LoadedScene::read(scene, cache)?);
+    if let Some((text, place)) = &of.scene {
+        return Ok(LoadedScene::from_text(text, place, cache)?);
     }
     let folder = of.exploration.as_deref().unwrap_or_else(|| Path::new(""));
     let about =
@@ -110,9 +110,10 @@ fn scene_of(of: &FigureOf, cache: Option<&BuildCache>) -> Result<LoadedScene, Ap
 
 fn read(of: &FigureOf, loaded: &LoadedScene) -> Result<Recording, AppError> {
     let first = loaded.scene().recordings.first();
-    let first = first.map(|recording| recording.place(of.scene.as_deref()));
+    let scene = of.scene.as_ref().map(|(_, place)| place.as_path());
+    let first = first.map(|recording| recording.place(scene));
     let Some(place) = of.exploration.clone().or(first) else {
-        let scene = of.scene.as_deref().unwrap_or_else(|| Path::new(""));
+        let scene = scene.unwrap_or_else(|| Path::new(""));
         let what = format!("{} names no recording", scene.display());
         let mend = "give a recording or a path with --path";
         return Err(AppError::Exploration(format!("{what}; {mend}")));

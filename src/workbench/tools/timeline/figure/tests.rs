@@ -4,13 +4,17 @@ use super::*;
 
 const SCENE: &str = "../../assets/scenes/four-alternatives.scene.toml";
 
+fn read_at(scene: &Path) -> (String, PathBuf) {
+    (std::fs::read_to_string(scene).unwrap(), scene.to_owned())
+}
+
 fn figure(contactor: Option<usize>) -> Result<FigureFiles, AppError> {
     let scratch = selvedge_scratch::ScratchFolder::made("figure");
     let row = |n: u32| format!("{},{},60\n", f64::from(n) / 40.0, 30.0 + 4.0 * f64::from(n));
     let rows: String = (0..=40).map(row).collect();
     let path = scratch.write("stroke.csv", format!("t_s,x_mm,y_mm\n{rows}"));
     let of = FigureOf {
-        scene: Some(Path::new(env!("CARGO_MANIFEST_DIR")).join(SCENE)),
+        scene: Some(read_at(&Path::new(env!("CARGO_MANIFEST_DIR")).join(SCENE))),
         exploration: Some(path),
         contactor,
     };
@@ -98,7 +102,7 @@ fn two_displays_are_drawn_and_the_one_under_whose_contactor_it_looks_is_told_of(
     std::fs::write(&csv, made.path().to_csv().unwrap()).unwrap();
     let scene = folder.join("two.scene.toml");
     let of = |exploration: &Path, contactor| FigureOf {
-        scene: Some(scene.clone()),
+        scene: Some(read_at(&scene)),
         exploration: Some(exploration.to_owned()),
         contactor,
     };
