@@ -28,7 +28,7 @@ fn a_second_finger_may_have_a_device_of_its_own() {
             finger("path"),
             finger(second)
         );
-        let scene = DrapeScene::from_text(&text, std::path::Path::new("a.drape.toml")).unwrap();
+        let scene = DrapeScene::from_text(&text, Path::new("a.drape.toml")).unwrap();
         assert_eq!(scene.has_second_device(), has_device, "{second}");
     }
 }
