@@ -151,6 +151,33 @@ impl Drawing {
     }
 }
 
+/// Waves that a cloth lies in, one over the side of its picture.
+pub(super) struct Bend {
+    turns: f64,
+    amplitude_px: f64,
+    phases: [f64; 2],
+}
+
+impl Bend {
+    /// Of a largest local stretch.
+    pub(super) fn new(side_px: f64, stretch: f64, random: &mut Random) -> Self {
+        let turns = TAU / side_px;
+        Self {
+            turns,
+            amplitude_px: stretch / turns,
+            phases: [0; 2].map(|_| random.uniform_in(0.0, TAU)),
+        }
+    }
+
+    /// Which place of the cloth lies at a place of the picture.
+    pub(super) fn at(&self, [x, y]: Place) -> Place {
+        let turns = self.turns;
+        let across = (turns * y + self.phases[0]).sin() + 0.5 * (turns * x).sin();
+        let down = (turns * x + self.phases[1]).sin();
+        [x + self.amplitude_px * across, y + self.amplitude_px * down]
+    }
+}
+
 /// Sums of 3 × 3 places of each of `n` × `n` pixels.
 pub(super) fn of_nine(n: usize, at: impl Fn(Place) -> f64) -> Grid<f64> {
     Grid::from_fn(n, n, |column, row| {

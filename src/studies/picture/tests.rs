@@ -145,3 +145,15 @@ fn every_route_is_measured_on_every_cloth() {
         "a dot a row, and two ends of a line"
     );
 }
+
+#[test]
+fn what_is_stated_of_a_lattice_holds_for_other_pictures() {
+    let findings = quick(&WEAVES);
+    let kept = |row: &&Row| row.method == "confidence";
+    let rows: Vec<&Row> = findings.rows.iter().filter(kept).collect();
+    assert!(!rows.is_empty());
+    assert!(
+        rows.iter().all(|row| row.is_kept() == Some(true)),
+        "{rows:?}"
+    );
+}

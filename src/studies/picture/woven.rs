@@ -81,15 +81,20 @@ const LONGEST: isize = 8;
 const N_YARNS: usize = 400;
 
 impl Cloth {
-    /// A cloth at 5 to 11 px a thread with 4.5 to 9 repeats a side, turned by `turn_rad`.
-    pub(super) fn new((_, rows): Woven, turn_rad: f64, random: &mut Random) -> Self {
+    /// A cloth at 5 to 11 px a thread with so many repeats a side, turned by `turn_rad`.
+    pub(super) fn new(
+        (_, rows): Woven,
+        [fewest, most]: [f64; 2],
+        turn_rad: f64,
+        random: &mut Random,
+    ) -> Self {
         let pitch = random.uniform_in(5.0, 11.0);
         let other = pitch * random.uniform_in(0.8, 1.25);
         let polar = |length: f64, angle: f64| [length * angle.cos(), length * angle.sin()];
         let threads = Basis::new(polar(pitch, turn_rad), polar(other, turn_rad + FRAC_PI_2));
         let [first, second] = repeat(rows);
         let sides = [rows[0].len() as f64 * pitch, rows.len() as f64 * other];
-        let side = sides[0].max(sides[1]) * random.uniform_in(4.5, 9.0);
+        let side = sides[0].max(sides[1]) * random.uniform_in(fewest, most);
         let [uneven, misplaced] = [random.uniform_in(0.0, 0.06), random.uniform_in(0.0, 0.025)];
         let yarn = |_| {
             let spreads = [uneven, uneven, misplaced, misplaced];
@@ -100,7 +105,7 @@ impl Cloth {
             rows,
             threads,
             repeat: Basis::new(threads.place(first), threads.place(second)).reduced(),
-            side_px: side.clamp(160.0, 420.0),
+            side_px: side.clamp(if fewest < 4.0 { 40.0 } else { 160.0 }, 420.0),
             contrast: random.uniform_in(0.0, 0.25),
             dive: random.uniform_in(0.15, 0.5),
             twist: random.uniform_in(0.0, 0.05),

@@ -193,13 +193,13 @@ impl Brightness {
     /// A light on the picture as it falls on this.
     #[must_use]
     pub fn light(&self, on_picture: Light) -> Light {
-        turned(on_picture, self.angle_rad.to_degrees())
+        on_picture.turned(self.angle_rad.to_degrees())
     }
 
     /// A light on this as it falls on the picture.
     #[must_use]
     pub(crate) fn light_on_picture(&self, here: Light) -> Light {
-        turned(here, -self.angle_rad.to_degrees())
+        here.turned(-self.angle_rad.to_degrees())
     }
 
     /// Estimates the light on the picture, from this; its tilt from turned pictures, if there are.
@@ -215,17 +215,6 @@ impl Brightness {
         estimate.light = self.light_on_picture(estimate.light);
         Ok(estimate)
     }
-}
-
-/// The tilt grown by so much, −180° (not included) to 180°.
-pub(super) fn turned(light: Light, by_deg: f64) -> Light {
-    let tilt_deg = (light.tilt_deg + by_deg).rem_euclid(360.0);
-    let tilt_deg = if tilt_deg > 180.0 {
-        tilt_deg - 360.0
-    } else {
-        tilt_deg
-    };
-    Light { tilt_deg, ..light }
 }
 
 impl Brightness {

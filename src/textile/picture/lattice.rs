@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use super::autocorrelation::Autocorrelation;
 use super::basis::{Basis, Place, length, mix};
+use super::calibration::Agreement;
 use super::candidates::{Candidate, Method, judge, pairs, tolerance_px};
 use super::directions::Directions;
 use super::held_out::{self, HeldOut, Repeat};
@@ -117,6 +118,9 @@ pub struct Lattice {
     pub p2_px: Place,
     /// The share of generated cloths with evidence like this whose lattice was right.
     pub confidence: f64,
+    /// The share of generated pictures that repeat nowhere which were given a lattice on evidence
+    /// of this kind.
+    pub false_alarm_rate: f64,
     /// What proposed it.
     pub method: &'static str,
     /// The lattice from thread to thread, where it is finer.
@@ -220,6 +224,7 @@ impl Lattice {
             p1_px: basis.p1,
             p2_px: basis.p2,
             confidence: agreement.confidence(),
+            false_alarm_rate: agreement.false_alarm_rate(),
             method: method.name(),
             thread_grid: held_out::thread_grid(&evidence, &starts, &basis),
             held_out: is_known.then_some(explained.share),
@@ -251,32 +256,6 @@ fn starts(
         }
     }
     starts
-}
-
-/// How the two ways to the repeat of a weave agree: by heights of maxima, and by what is predicted.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Agreement {
-    /// They do.
-    Same,
-    /// What is predicted is clearly better by another lattice.
-    Predicted,
-    /// It is not clear.
-    Heights,
-    /// Too few cells to predict any.
-    Few,
-}
-
-impl Agreement {
-    /// The share of generated cloths that were right, of those with a lattice that were judged so
-    /// (the study of lattices counts it).
-    pub(super) fn confidence(self) -> f64 {
-        match self {
-            Self::Same => 0.98,
-            Self::Predicted => 0.85,
-            Self::Heights => 0.65,
-            Self::Few => 0.5,
-        }
-    }
 }
 
 /// The lattice that is to be believed, and why.

@@ -12,6 +12,7 @@ mod appearance;
 mod autocorrelation;
 mod basis;
 pub mod brightness;
+mod calibration;
 mod candidates;
 mod colour;
 mod directions;

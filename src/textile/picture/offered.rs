@@ -6,7 +6,7 @@ use super::basis::Basis;
 use super::candidates::judge;
 use super::directions::Directions;
 use super::held_out;
-use super::lattice::{Agreement, Lattice, candidates, levels};
+use super::lattice::{Lattice, candidates, levels};
 use super::maxima::Maxima;
 use super::multiples::Evidence;
 use super::significant::SignificantMaxima;
@@ -15,8 +15,8 @@ use super::significant::SignificantMaxima;
 const N_OFFERED: usize = 3;
 
 impl Lattice {
-    /// A lattice that somebody gives, with the evidence for it; its confidence is that of one with
-    /// too few cells to judge by.
+    /// A lattice that somebody gives, with the evidence for it. Nobody counted how often such
+    /// people are right: no confidence is stated.
     pub fn given(
         (rho, maxima, significant): (&Autocorrelation, &Maxima, &SignificantMaxima),
         basis: Basis,
@@ -33,7 +33,8 @@ impl Lattice {
         Self {
             p1_px: basis.p1,
             p2_px: basis.p2,
-            confidence: Agreement::Few.confidence(),
+            confidence: 0.0,
+            false_alarm_rate: 1.0,
             method: "given",
             thread_grid: held_out::thread_grid(&evidence, &[basis], &basis),
             held_out: (explained.n_neighbours > 0).then_some(explained.share),

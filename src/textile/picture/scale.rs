@@ -79,6 +79,7 @@ mod tests {
             p1_px: [10.1, 8.08],
             p2_px: [-10.1, 8.08],
             confidence: 0.98,
+            false_alarm_rate: 0.0,
             method: "hough",
             thread_grid,
             held_out: None,

@@ -1,63 +1,26 @@
-//! Model cloths whose relief is known, from fine to coarse, and their pictures.
+//! Model cloths whose relief is known, and their pictures.
 
+use super::super::drawings::Bend;
+use super::taking::{LIGHT, Taking};
 use crate::shading::reliefs::in_px;
 use crate::{Effort, ReportError, textiles};
-use selvedge_foundation::numerics::{Grid, Random};
-use selvedge_textile::picture::shading::{Light, picture_of};
+use selvedge_foundation::numerics::{Grid, Random, to_index};
+use selvedge_textile::picture::Place;
+use selvedge_textile::picture::shading::picture_of;
 use selvedge_textile::surface::HeightMap;
-use selvedge_textile::{Lamp, Library, Source, Weave};
+use selvedge_textile::{Library, Source, Weave};
+use std::path::Path;
 
-/// Where the light comes from: along neither yarn.
-pub(super) const LIGHT: Light = Light {
-    slant_deg: 45.0,
-    tilt_deg: 30.0,
-};
 /// Share of white that faces the light.
 const ALBEDO: f64 = 0.8;
-
-/// How a picture is taken, and what is known of it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Taking {
-    /// Pixels a side at most, each of so many points of the relief each way.
-    pub(super) side_px: usize,
-    pub(super) points_a_px: usize,
-    /// Noise of the camera, share of white.
-    pub(super) noise: f64,
-    /// Bits a pixel.
-    pub(super) bits: i32,
-    /// The lamp as it is told.
-    pub(super) lamp: Lamp,
-}
-
-impl Taking {
-    /// Under a lamp that is told right, with little noise.
-    pub(super) const PLAIN: Self = Self {
-        side_px: 300,
-        points_a_px: 2,
-        noise: 0.01,
-        bits: 16,
-        lamp: Lamp::Known {
-            light: LIGHT,
-            within_deg: Lamp::WITHIN_DEG,
-        },
-    };
-
-    /// In words.
-    pub(super) fn name(&self) -> String {
-        let light = match self.lamp {
-            Lamp::Unknown | Lamp::Turned { .. } => "light unknown",
-            Lamp::Known { light, .. } if light == LIGHT => "light known",
-            Lamp::Known { .. } => "light 15° off",
-        };
-        let (per_mm, bits, percent) = (50 / self.points_a_px, self.bits, 100.0 * self.noise);
-        format!("{per_mm} px/mm, {light}, {bits} bits, noise {percent} %")
-    }
-}
+/// Points of the relief along a pixel.
+const POINTS_A_PX: usize = 2;
 
 /// The fine cloth that has a double.
 const FINE: &str = "polyamide-taffeta";
-/// Models of the shipped library beside it, fine to coarse.
-const IDS: [&str; 11] = [
+/// Models of the shipped library beside it, fine to coarse: what a textile of a picture is tuned by
+/// was chosen on these.
+const TUNED_ON: [&str; 11] = [
     "denim",
     "jute-plain",
     "polyester-satin",
@@ -70,60 +33,105 @@ const IDS: [&str; 11] = [
     "polyester-honeycomb",
     "wool-rib",
 ];
+/// Models that nothing was tuned on: of those that the seventy-four have beside the shipped ones
+/// every third, the first first, in the order of their file.
+const FRESH: [&str; 12] = [
+    "sisal-matting",
+    "silk-habotai",
+    "cotton-poplin",
+    "polyester-lining",
+    "silk-surah",
+    "cotton-workwear-drill",
+    "acetate-satin",
+    "silk-ottoman",
+    "cotton-waffle",
+    "wool-jersey",
+    "cotton-interlock",
+    "acrylic-rib",
+];
 
 /// The corner of a relief that quick mode looks at: 10 mm, points 0.02 mm apart.
 const CORNER: [usize; 4] = [0, 0, 500, 500];
+
+/// What a cloth is made by.
+pub(super) struct Recipe {
+    pub(super) name: String,
+    source: Source,
+    /// What it is to those before it.
+    pub(super) kin: Kin,
+}
+
+/// What a cloth is to what was known before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kin {
+    /// Methods were tuned on it.
+    Tuned,
+    /// It is nearly the first cloth.
+    Double,
+    /// Nothing was tuned on it.
+    Fresh,
+}
 
 /// A cloth with its relief.
 #[derive(Debug, Clone)]
 pub(super) struct Cloth {
     pub(super) name: String,
+    pub(super) kin: Kin,
     pub(super) map: HeightMap,
-    /// Whether it is nearly the first cloth.
-    pub(super) is_double: bool,
 }
 
 /// The fine cloth first, then its doubles, then the others.
-pub(super) fn cloths(effort: Effort) -> Result<Vec<Cloth>, ReportError> {
+pub(super) fn recipes(effort: Effort) -> Result<Vec<Recipe>, ReportError> {
     let library = Library::shipped()?;
-    let mut cloths = Vec::new();
-    if let Source::Weave(weave) = library.manifest(FINE)?.source {
-        cloths.push(of(FINE, &Source::Weave(weave.clone()), effort)?);
+    let recipe = |library: &Library, id: &str, kin: Kin| {
+        Ok::<_, ReportError>(Recipe {
+            name: id.to_owned(),
+            source: library.manifest(id)?.source,
+            kin,
+        })
+    };
+    let mut all = vec![recipe(&library, FINE, Kin::Tuned)?];
+    if let Source::Weave(weave) = all[0].source.clone() {
         for number in 1..=effort.pick(1, 4) {
             let mut double: Weave = weave.as_ref().clone();
             double.weft_per_cm *= 1.03;
             double.seed += 1000 * number;
-            let name = format!("its double {number}, picks 3 % closer");
-            let double = of(&name, &Source::Weave(Box::new(double)), effort)?;
-            cloths.push(Cloth {
-                is_double: true,
-                ..double
+            all.push(Recipe {
+                name: format!("its double {number}, picks 3 % closer"),
+                source: Source::Weave(Box::new(double)),
+                kin: Kin::Double,
             });
         }
     }
-    for id in IDS.iter().take(effort.pick(1, IDS.len())) {
-        cloths.push(of(id, &library.manifest(id)?.source, effort)?);
+    for id in &TUNED_ON[..effort.pick(1, TUNED_ON.len())] {
+        all.push(recipe(&library, id, Kin::Tuned)?);
     }
-    Ok(cloths)
+    let others = Library::named(Path::new("seventy-four"), None)?;
+    for id in &FRESH[..effort.pick(0, FRESH.len())] {
+        all.push(recipe(&others, id, Kin::Fresh)?);
+    }
+    Ok(all)
 }
 
-/// The relief of a model, in quick mode a corner of it.
-fn of(name: &str, source: &Source, effort: Effort) -> Result<Cloth, ReportError> {
-    let map = textiles::relief(name, source)?;
-    let map = match (effort, map.heights_um().part(CORNER)) {
-        (Effort::Quick, Some(corner)) => {
-            HeightMap::new(corner, map.step_mm()).map_err(textiles::wrong(name))?
-        }
-        _ => map,
-    };
-    Ok(Cloth {
-        name: name.to_owned(),
-        map,
-        is_double: false,
-    })
+impl Recipe {
+    /// The cloth, in quick mode a corner of it.
+    pub(super) fn cloth(&self, effort: Effort) -> Result<Cloth, ReportError> {
+        let map = textiles::relief(&self.name, &self.source)?;
+        let map = match (effort, map.heights_um().part(CORNER)) {
+            (Effort::Quick, Some(corner)) => {
+                HeightMap::new(corner, map.step_mm()).map_err(textiles::wrong(&self.name))?
+            }
+            _ => map,
+        };
+        Ok(Cloth {
+            name: self.name.clone(),
+            kin: self.kin,
+            map,
+        })
+    }
 }
 
-/// A picture of a part of a cloth, rows as heights have them, and the size of its pixels, mm.
+/// A picture of a part of a cloth, rows from the top, and the size of its pixels, mm.
 pub(super) struct Photograph {
     pub(super) luminance: Grid<f64>,
     pub(super) px_mm: [f64; 2],
@@ -132,32 +140,42 @@ pub(super) struct Photograph {
 impl Cloth {
     /// Its picture under [`LIGHT`]: pixels are means of the relief's points.
     pub(super) fn photograph(&self, taking: &Taking, seed: u64) -> Photograph {
-        let Taking {
-            side_px,
-            points_a_px,
-            noise,
-            bits,
-            ..
-        } = *taking;
-        let steps = 2.0_f64.powi(bits) - 1.0;
-        let step_mm = self.map.step_mm();
-        let fine = picture_of(&in_px(&self.map), LIGHT);
-        let sides = [fine.width(), fine.height()].map(|n| (n / points_a_px).min(side_px));
         let mut random = Random::new(seed).branch("camera").branch(&self.name);
-        let mut luminance = Grid::filled(sides[0], sides[1], 0.0);
-        for row in 0..sides[1] {
-            for (column, value) in luminance.row_mut(row).iter_mut().enumerate() {
-                let columns = column * points_a_px..(column + 1) * points_a_px;
-                let rows = row * points_a_px..(row + 1) * points_a_px;
-                let sums = rows.map(|row| fine.row(row)[columns.clone()].iter().sum::<f64>());
-                let mean = sums.sum::<f64>() / (points_a_px * points_a_px) as f64;
-                let seen = (ALBEDO * mean + noise * random.normal()).clamp(0.0, 1.0);
-                *value = (seen * steps).round() / steps;
-            }
+        let mut heights_px = in_px(&self.map);
+        let sides = [heights_px.width(), heights_px.height()]
+            .map(|n| (n / POINTS_A_PX).min(taking.side_px));
+        if taking.stretch > 0.0 {
+            let side = (POINTS_A_PX * sides[0]) as f64;
+            let bend = Bend::new(side, taking.stretch, &mut random.branch("bend"));
+            heights_px = Grid::from_fn(heights_px.width(), heights_px.height(), |x, y| {
+                between(&heights_px, bend.at([x as f64, y as f64]))
+            });
         }
+        let fine = picture_of(&heights_px, LIGHT);
+        let seen = Grid::from_fn(sides[0], sides[1], |column, row| {
+            let columns = column * POINTS_A_PX..(column + 1) * POINTS_A_PX;
+            let rows = row * POINTS_A_PX..(row + 1) * POINTS_A_PX;
+            let sums = rows.map(|row| fine.row(row)[columns.clone()].iter().sum::<f64>());
+            let mean = sums.sum::<f64>() / (POINTS_A_PX * POINTS_A_PX) as f64;
+            taking.seen(ALBEDO * mean, &mut random)
+        });
         Photograph {
-            luminance,
-            px_mm: step_mm.map(|mm| mm * points_a_px as f64),
+            luminance: seen.turned_over(),
+            px_mm: self.map.step_mm().map(|mm| mm * POINTS_A_PX as f64),
         }
     }
+}
+
+/// A height between points, bilinear; the relief goes on beyond its edges as it began.
+fn between(heights: &Grid<f64>, [x, y]: Place) -> f64 {
+    let along = |at: f64, n: usize| {
+        let at = at.rem_euclid(n as f64);
+        let first = to_index(at) % n;
+        (first, (first + 1) % n, at.fract())
+    };
+    let (i, next_i, s) = along(x, heights.width());
+    let (j, next_j, t) = along(y, heights.height());
+    let of_row = |row: &[f64]| row[i] + (row[next_i] - row[i]) * s;
+    let [first, second] = [j, next_j].map(|row| of_row(heights.row(row)));
+    first + (second - first) * t
 }

@@ -1,33 +1,41 @@
-//! Rows, plots and sentences of what the routes came to.
+//! Rows and sentences of what the routes came to.
 
+use super::cloths::Kin;
 use super::felt::Felt;
+use super::taking::Taking;
 use super::ways::{Subject, Way};
-use crate::chart::chart;
-use crate::{Bench, Findings, Row, Timing};
-use selvedge_chart::{Axis, Chart, Series, Style};
+use crate::{Bench, Effort, Row, Timing};
 use selvedge_foundation::numerics::{median, quantile};
 use selvedge_statistics::rank_correlation;
-use selvedge_textile::surface::BIN_SPACING_PER_MM;
 
 /// Cloths whose levels differ by less than this are hardly told apart, dB.
 const HARDLY_DB: f64 = 1.5;
-/// Waves longer than this many cycles a mm are in the plot of spectra.
-const MOST_PER_MM: f64 = 8.0;
+/// Median level errors that are promised of what is kept by evidence, by what is known of the
+/// light, dB.
+const PROMISED_DB: [(&str, f64); 2] = [("light known", 5.0), ("light unknown", 7.0)];
 
-/// A cloth, what is felt of it in truth and by every route, and what that took.
+/// A picture of a cloth, what is felt of it in truth and by every route, and what that took.
 pub(super) struct Tried {
-    name: String,
-    is_double: bool,
-    truth: Felt,
+    pub(super) name: String,
+    kin: Kin,
+    taking: Taking,
+    /// Whether it was taken in the plainest way, as every cloth is once.
+    pub(super) is_plain: bool,
+    pub(super) truth: Felt,
     by_way: Vec<(Way, Result<Felt, String>, Option<Timing>)>,
     /// Of warp and weft by band: the ends of what is believed less the truth, dB.
     band_db: Option<[[f64; 2]; 4]>,
 }
 
 impl Tried {
-    /// Tries every route on a cloth.
-    pub(super) fn of(subject: &Subject, is_timed: bool, bench: &Bench<'_>) -> Self {
-        let by_way = Way::ALL.map(|way| {
+    /// Tries every route on a picture of a cloth; those without one where it is the plainest.
+    pub(super) fn of(
+        subject: &Subject<'_>,
+        [is_plain, is_timed]: [bool; 2],
+        bench: &Bench<'_>,
+    ) -> Self {
+        let ways = Way::ALL.into_iter();
+        let by_way = ways.filter(|way| is_plain || way.is_picture()).map(|way| {
             let felt = subject.felt_by(way);
             let cost = (is_timed && felt.is_ok()).then(|| {
                 bench.time_repeated(1, 1, || {
@@ -41,67 +49,92 @@ impl Tried {
             (way, felt, cost)
         });
         Self {
-            name: subject.cloth.name.clone(),
-            is_double: subject.cloth.is_double,
-            truth: subject.truth.clone(),
-            by_way: by_way.into(),
+            name: subject.known.cloth.name.clone(),
+            kin: subject.known.cloth.kin,
+            taking: subject.taking,
+            is_plain,
+            truth: subject.known.truth.clone(),
+            by_way: by_way.collect(),
             band_db: subject.band_db(),
         }
     }
 
-    fn felt_by(&self, way: Way) -> Option<&Felt> {
+    pub(super) fn felt_by(&self, way: Way) -> Option<&Felt> {
         let found = self.by_way.iter().find(|(other, _, _)| *other == way)?;
         found.1.as_ref().ok()
     }
+
+    /// The sets of pictures that it is one of, in words.
+    fn sets(&self) -> Vec<String> {
+        let mut sets = Vec::from_iter(self.is_plain.then(|| "the plainest".to_owned()));
+        let kin = match self.kin {
+            Kin::Tuned => "tuned on",
+            Kin::Fresh => "fresh",
+            // Doubles would crowd the ranks of others.
+            Kin::Double => return sets,
+        };
+        let [light, rest @ ..] = self.taking.words();
+        let of_kin = format!("{light}, {kin}");
+        sets.extend(["all".to_owned(), light, of_kin].into_iter().chain(rest));
+        sets
+    }
 }
 
-/// Adds the rows of all cloths, those of all together, notes, and plots if asked for.
-pub(super) fn report(results: &[Tried], setting: &str, is_drawn: bool, findings: &mut Findings) {
+/// Rows of all pictures and of sets of them, and what a reader should know.
+pub(super) fn report(results: &[Tried], effort: Effort) -> (Vec<Row>, Vec<String>) {
+    let (mut rows, mut notes) = (Vec::new(), Vec::new());
     for tried in results {
+        let setting = tried.taking.words().join(", ");
         for (way, felt, cost) in &tried.by_way {
-            if is_drawn || way.is_picture() {
-                let row = row(tried, *way, felt, *cost);
-                findings.rows.push(with_setting(row, *way, setting));
+            rows.push(row(tried, (*way, &setting), felt, *cost));
+        }
+    }
+    let plain: Vec<&Tried> = results.iter().filter(|tried| tried.is_plain).collect();
+    for way in Way::ALL.into_iter().filter(|way| !way.is_picture()) {
+        let summary = Summary::of(&plain, way);
+        notes.push(summary.note(&way.name()));
+        rows.push(summary.row(way, ""));
+    }
+    let mut sets: Vec<String> = Vec::new();
+    for set in results.iter().flat_map(Tried::sets) {
+        if !sets.contains(&set) {
+            sets.push(set);
+        }
+    }
+    for way in Way::ALL.into_iter().filter(|way| way.is_picture()) {
+        for set in &sets {
+            let is_of_set = |tried: &&Tried| tried.sets().contains(set);
+            let of_set: Vec<&Tried> = results.iter().filter(is_of_set).collect();
+            let summary = Summary::of(&of_set, way);
+            let mut row = summary.row(way, set);
+            if way == Way::Believed {
+                notes.push(summary.note(&format!("{} ({set})", way.name())));
+                let promised = PROMISED_DB.iter().find(|(of, _)| of == set);
+                let promised = promised.filter(|_| effort == Effort::Full);
+                row.promised = promised.map(|(_, db)| *db);
             }
+            rows.push(row);
         }
     }
-    for way in Way::ALL {
-        if is_drawn || way.is_picture() {
-            let summary = Summary::of(results, way);
-            let row = with_setting(summary.row(way), way, setting);
-            findings.notes.push(summary.note(&row));
-            findings.rows.push(row);
-        }
-    }
-    if is_drawn {
-        findings.notes.push(claim(results));
-        for (band, name) in [(0, "40"), (1, "320")] {
-            let plot = levels(results, band, name);
-            findings.plots.push((format!("levels-{name}"), plot));
-        }
-        if let Some(fine) = results.first() {
-            findings.plots.push(("spectrum".to_owned(), spectra(fine)));
-        }
-    }
+    notes.push(claim(&plain));
+    (rows, notes)
 }
 
-fn with_setting(mut row: Row, way: Way, setting: &str) -> Row {
-    if way.is_picture() {
-        let both = [setting, &row.setting].join(": ");
-        both.trim_end_matches(": ").clone_into(&mut row.setting);
-    }
-    row
-}
-
-fn row(tried: &Tried, way: Way, felt: &Result<Felt, String>, cost: Option<Timing>) -> Row {
+fn row(
+    tried: &Tried,
+    (way, setting): (Way, &str),
+    felt: &Result<Felt, String>,
+    cost: Option<Timing>,
+) -> Row {
+    let setting = if way.is_picture() { setting } else { "" };
     let felt = match felt {
         Ok(felt) => felt,
-        Err(reason) => return Row::of(way.name(), reason, &tried.name),
+        Err(reason) => return Row::of(way.name(), format!("{setting}: {reason}"), &tried.name),
     };
     let truth = &tried.truth;
     let apart_db = felt.apart_db(truth);
     let spectrum_percent = felt.spectrum_off_percent(truth);
-    Row::of(way.name(), "", &tried.name)
+    Row::of(way.name(), setting, &tried.name)
         .error(apart_db[0].abs().max(apart_db[1].abs()))
         .cost(cost)
         .number("true_a40_db", 3, truth.levels_db[0])
@@ -115,13 +148,13 @@ fn row(tried: &Tried, way: Way, felt: &Result<Felt, String>, cost: Option<Timing
         .number("spectrum_error_percent", 3, spectrum_percent)
 }
 
-/// A route over all cloths.
+/// A route over many pictures.
 #[derive(Debug, Clone, PartialEq)]
 struct Summary {
     n: usize,
-    n_cloths: usize,
+    n_pictures: usize,
     median_db: f64,
-    /// Nine of ten cloths are nearer.
+    /// Nine of ten are nearer.
     p90_db: f64,
     /// Of what is believed, the share of truths between its ends, %, and its mean width, dB; NaN
     /// of other routes.
@@ -141,8 +174,8 @@ fn distance_db(a: &Felt, b: &Felt) -> f64 {
 }
 
 /// Mean distance of the first cloth from its doubles, dB: in truth, and by a route.
-fn doubles_db(results: &[Tried], way: Way) -> [f64; 2] {
-    let doubles = || results.iter().filter(|tried| tried.is_double);
+fn doubles_db(results: &[&Tried], way: Way) -> [f64; 2] {
+    let doubles = || results.iter().filter(|tried| tried.kin == Kin::Double);
     let mean = |distance: &dyn Fn(&Tried, &Tried) -> Option<f64>| {
         let first = results.first();
         let all = doubles().map(|double| distance(first?, double).filter(|db| db.is_finite()));
@@ -156,9 +189,8 @@ fn doubles_db(results: &[Tried], way: Way) -> [f64; 2] {
 }
 
 impl Summary {
-    fn of(results: &[Tried], way: Way) -> Self {
-        // Doubles would crowd the ranks.
-        let single = || results.iter().filter(|tried| !tried.is_double);
+    fn of(results: &[&Tried], way: Way) -> Self {
+        let single = || results.iter().filter(|tried| tried.kin != Kin::Double);
         let pairs: Vec<[&Felt; 2]> = single()
             .filter_map(|tried| Some([&tried.truth, tried.felt_by(way)?]))
             .collect();
@@ -174,14 +206,14 @@ impl Summary {
         let larger = |[low, high]: [f64; 2]| low.abs().max(high.abs());
         Self {
             n: pairs.len(),
-            n_cloths: single().count(),
+            n_pictures: single().count(),
             median_db: of_pairs(&|truth, felt| larger(felt.apart_db(truth))),
             p90_db: {
                 let off = |[truth, felt]: &[&Felt; 2]| larger(felt.apart_db(truth));
                 quantile(&mut pairs.iter().map(off).collect::<Vec<f64>>(), 0.9)
             },
             band: match way {
-                Way::Believed => band(single()),
+                Way::Believed => band(single().copied()),
                 _ => [f64::NAN; 2],
             },
             median_spectrum_percent: of_pairs(&|truth, felt| felt.spectrum_off_percent(truth)),
@@ -195,9 +227,9 @@ impl Summary {
         }
     }
 
-    fn row(&self, way: Way) -> Row {
-        let case = format!("{} of {} cloths", self.n, self.n_cloths);
-        Row::of(way.name(), "", case)
+    fn row(&self, way: Way, set: &str) -> Row {
+        let case = format!("{} of {} pictures", self.n, self.n_pictures);
+        Row::of(way.name(), set, case)
             .error(self.median_db.is_finite().then_some(self.median_db))
             .number("error_p90_db", 3, self.p90_db)
             .number("band_holds_percent", 3, self.band[0])
@@ -211,12 +243,7 @@ impl Summary {
             .number("doubles_db", 3, self.pair_db[1])
     }
 
-    fn note(&self, row: &Row) -> String {
-        let name = if row.setting.is_empty() {
-            row.method.clone()
-        } else {
-            format!("{} at {}", row.method, row.setting)
-        };
+    fn note(&self, name: &str) -> String {
         let said = |x: f64, decimals: usize| {
             if x.is_finite() {
                 selvedge_foundation::quantity::fixed(x, decimals)
@@ -225,10 +252,10 @@ impl Summary {
             }
         };
         let mut note = format!(
-            "{name}: {} of {} cloths; level error {} dB in the median, nine of ten below {} dB; \
+            "{name}: {} of {} pictures; level error {} dB in the median, nine of ten below {} dB; \
              median spectrum error {} %, rank correlation of SMD {}, of A40 {}, of A320 {}",
             self.n,
-            self.n_cloths,
+            self.n_pictures,
             said(self.median_db, 1),
             said(self.p90_db, 1),
             said(self.median_spectrum_percent, 0),
@@ -267,7 +294,7 @@ fn band<'a>(cloths: impl Iterator<Item = &'a Tried>) -> [f64; 2] {
 }
 
 /// Whether fine cloths that are alike become distinct, and by which route.
-fn claim(results: &[Tried]) -> String {
+fn claim(results: &[&Tried]) -> String {
     let by_way = Way::ALL.map(|way| (way, Summary::of(results, way)));
     let distinct: Vec<String> = by_way
         .iter()
@@ -281,7 +308,7 @@ fn claim(results: &[Tried]) -> String {
     };
     let best = by_way
         .iter()
-        .filter(|(_, summary)| summary.n * 2 > summary.n_cloths)
+        .filter(|(_, summary)| summary.n * 2 > summary.n_pictures)
         .min_by(|a, b| a.1.median_db.total_cmp(&b.1.median_db));
     let nearest = best.map_or_else(
         || "No route ends for more than half of the cloths.".to_owned(),
@@ -297,60 +324,6 @@ fn claim(results: &[Tried]) -> String {
         "The claim, that restoring a profile makes very fine cloths distinct that are alike and \
          that a picture does not: {which} (more than {HARDLY_DB} dB farther apart than \
          in truth). {nearest}"
-    )
-}
-
-fn levels(results: &[Tried], band: usize, name: &str) -> Chart {
-    let truth = |tried: &Tried| tried.truth.levels_db[band];
-    let mut all: Vec<Series> = Way::ALL
-        .map(|way| {
-            let dot = |tried: &Tried| Some([truth(tried), tried.felt_by(way)?.levels_db[band]]);
-            Series::of(way.name(), Style::Dots, results.iter().filter_map(dot))
-        })
-        .into();
-    let of_all = || results.iter().map(truth);
-    let ends = [
-        of_all().fold(f64::INFINITY, f64::min),
-        of_all().fold(f64::NEG_INFINITY, f64::max),
-    ];
-    all.push(Series::of(
-        "as in truth",
-        Style::Dashed,
-        ends.map(|x| [x, x]),
-    ));
-    chart(
-        format!("Level at {name} Hz by every route against the relief's own"),
-        Axis::linear(format!("A{name} of the relief, dB re 1 µm")),
-        Axis::linear(format!("A{name} by the route, dB re 1 µm")),
-        all,
-        "100 mm/s; a dot a cloth and route. Above the line a cloth feels stronger than it is.",
-    )
-}
-
-fn spectra(fine: &Tried) -> Chart {
-    let line = |name: String, felt: &Felt, style: Style| {
-        let half = felt.spectrum_um.len() / 2;
-        let bins = felt.spectrum_um.iter().take(half).enumerate();
-        let points = bins.map(|(k, um)| [(k + 1) as f64 * BIN_SPACING_PER_MM, *um]);
-        Series::of(
-            name,
-            style,
-            points.filter(|[per_mm, _]| *per_mm <= MOST_PER_MM),
-        )
-    };
-    let by_way = |way: Way| Some(line(way.name(), fine.felt_by(way)?, Style::Line));
-    let mut all = vec![line(
-        "the relief's own".to_owned(),
-        &fine.truth,
-        Style::Dashed,
-    )];
-    all.extend(Way::ALL.into_iter().filter_map(by_way));
-    chart(
-        format!("Spectrum along the warp of {}", fine.name),
-        Axis::linear("wavenumber, cycles/mm"),
-        Axis::log("amplitude a bin, µm"),
-        all,
-        "Rms over all places of the stroke.",
     )
 }
 
@@ -371,7 +344,13 @@ mod tests {
     fn made_up() -> Vec<Tried> {
         let tried = |low_db: f64| Tried {
             name: format!("cloth {low_db}"),
-            is_double: low_db > 1.5 && low_db < 2.5,
+            kin: if low_db > 1.5 && low_db < 2.5 {
+                Kin::Double
+            } else {
+                Kin::Tuned
+            },
+            taking: Taking::PLAIN,
+            is_plain: true,
             truth: felt(low_db),
             by_way: vec![
                 (Way::ALL[0], Ok(felt(low_db)), None),
@@ -385,10 +364,10 @@ mod tests {
 
     #[test]
     fn a_route_that_is_upside_down_shows_up_as_wrong() {
-        let mut findings = Findings::default();
-        report(&made_up(), "25 px/mm", true, &mut findings);
-        let right = Summary::of(&made_up(), Way::ALL[0]);
-        let wrong = Summary::of(&made_up(), Way::ALL[1]);
+        let made_up = made_up();
+        let (rows, notes) = report(&made_up, Effort::Full);
+        let all: Vec<&Tried> = made_up.iter().collect();
+        let [right, wrong] = [0, 1].map(|way| Summary::of(&all, Way::ALL[way]));
         assert!(
             right.median_db.abs() < 1e-9 && wrong.median_db > 5.0,
             "{wrong:?}"
@@ -398,17 +377,9 @@ mod tests {
             (wrong.pair_db[1] / wrong.pair_db[0] - 3.0).abs() < 1e-9,
             "{wrong:?}"
         );
-        assert!(
-            findings
-                .notes
-                .iter()
-                .any(|note| note.contains("KES, restored.")
-                    || note.contains("distinct they become by: KES, restored"))
-        );
-        let lost = findings
-            .rows
-            .iter()
-            .find(|row| row.setting.contains("no lattice"));
+        assert!(notes.iter().any(|note| note.contains("KES, restored.")
+            || note.contains("distinct they become by: KES, restored")));
+        let lost = rows.iter().find(|row| row.setting.contains("no lattice"));
         assert!(lost.is_some_and(|row| row.error.is_none()));
     }
 }

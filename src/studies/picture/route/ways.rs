@@ -1,15 +1,16 @@
 //! The routes from a cloth to what is felt of it.
 
-use super::cloths::{Cloth, Photograph, Taking};
+use super::cloths::{Cloth, Photograph};
 use super::felt::Felt;
+use super::taking::Taking;
 use crate::ReportError;
 use crate::picture::analysed;
 use crate::textiles::wrong;
-use selvedge_foundation::numerics::{Grid, Random};
+use selvedge_foundation::numerics::Random;
 use selvedge_foundation::progress::Progress;
-use selvedge_textile::picture::Rectangle;
 use selvedge_textile::picture::brightness::Brightness;
-use selvedge_textile::picture::shading::{Light, LightEstimate, Method, ShadingOptions, Shape};
+use selvedge_textile::picture::shading::{Method, ShadingOptions, Shape};
+use selvedge_textile::picture::{Analysis, Relief, ReliefOf};
 use selvedge_textile::surface::{Direction, HeightMap, Probe, Profile, ProfileSet};
 use selvedge_textile::{
     Ensemble, HeightScale, Lamp, PictureTextile, Reduced, ScaledRelief, TextileError, n_threads,
@@ -28,9 +29,9 @@ pub(super) enum Way {
     Kes,
     /// The tester's strokes, reduced and restored.
     Restoration,
-    /// The picture, its lattice, its shape by a method, scaled to the tester's SMD.
+    /// The picture, its lattice, its mean cell, its shape by a method, scaled to the tester's SMD.
     Picture(Method),
-    /// The shape of the whole picture by the linear method, no lattice and no mean cell.
+    /// The shape of the whole picture by the linear method, no mean cell.
     Whole,
     /// Of many reliefs of the whole picture the one that is nearest to what all are believed to
     /// feel like.
@@ -51,8 +52,8 @@ impl Way {
         match self {
             Self::Kes => "KES strokes".to_owned(),
             Self::Restoration => "KES, restored".to_owned(),
-            Self::Picture(method) => format!("picture, {}", method.label()),
-            Self::Whole => "picture without lattice, linear".to_owned(),
+            Self::Picture(method) => format!("mean cell, {}", method.label()),
+            Self::Whole => "picture as it is, linear".to_owned(),
             Self::Believed => "picture as it is, by evidence".to_owned(),
         }
     }
@@ -62,23 +63,20 @@ impl Way {
     }
 }
 
-/// A cloth with everything that routes begin with.
-pub(super) struct Subject {
+/// A cloth with what the tester reads on it and what is felt of it.
+pub(super) struct Known {
     pub(super) cloth: Cloth,
-    pub(super) strokes: ProfileSet,
-    pub(super) photograph: Photograph,
+    strokes: ProfileSet,
     pub(super) truth: Felt,
-    lamp: Lamp,
-    cell: Result<Rectangle, String>,
-    believed: Result<(Ensemble, HeightMap), String>,
 }
 
-/// The rectangle that repeats in a photograph, as the mean of all.
-fn mean_cell(photograph: &Photograph) -> Result<Rectangle, String> {
-    let analysis = analysed(&photograph.luminance).ok_or("cancelled")?;
-    let found = analysis.found.map_err(|reason| reason.to_string())?;
-    let cell = found.tile.rectangle(1.0, 1);
-    cell.ok_or_else(|| "the lattice has no rectangle".to_owned())
+/// A known cloth that was photographed.
+pub(super) struct Subject<'a> {
+    pub(super) known: &'a Known,
+    pub(super) taking: Taking,
+    photograph: Photograph,
+    analysis: Analysis,
+    believed: Result<(Ensemble, HeightMap), String>,
 }
 
 fn strokes(
@@ -99,37 +97,43 @@ fn felt(map: &HeightMap, name: &str) -> Result<Felt, ReportError> {
     Felt::of(sets?, name)
 }
 
-impl Subject {
-    /// Strokes over a cloth and photographs it.
-    pub(super) fn new(cloth: Cloth, taking: &Taking, seed: u64) -> Result<Self, ReportError> {
+impl Known {
+    /// Strokes over a cloth.
+    pub(super) fn of(cloth: Cloth, seed: u64) -> Result<Self, ReportError> {
         let random = Random::new(seed).branch("tester").branch(&cloth.name);
-        let strokes = strokes(&cloth.map, &Probe::default(), 0.5, &random)?;
-        let photograph = cloth.photograph(taking, seed);
-        let truth = felt(&cloth.map, &cloth.name)?;
-        let subject = Self {
+        Ok(Self {
+            strokes: strokes(&cloth.map, &Probe::default(), 0.5, &random)?,
+            truth: felt(&cloth.map, &cloth.name)?,
             cloth,
-            strokes,
-            cell: mean_cell(&photograph),
+        })
+    }
+}
+
+impl<'a> Subject<'a> {
+    /// Photographs a cloth; nothing where the work was cancelled.
+    pub(super) fn new(known: &'a Known, taking: Taking, seed: u64) -> Option<Self> {
+        let photograph = known.cloth.photograph(&taking, seed);
+        let mut subject = Self {
+            known,
+            taking,
+            analysis: analysed(&photograph.luminance)?,
             photograph,
-            truth,
-            lamp: taking.lamp,
             believed: Err(String::new()),
         };
-        Ok(Self {
-            believed: subject.believe(),
-            ..subject
-        })
+        subject.believed = subject.believe(&subject.analysis);
+        Some(subject)
     }
 
     /// What is felt by a route, or in words why it ends nowhere.
     pub(super) fn felt_by(&self, way: Way) -> Result<Felt, String> {
-        let name = &self.cloth.name;
+        let name = &self.known.cloth.name;
+        let strokes = &self.known.strokes;
         let made = match way {
-            Way::Kes => Felt::of(vec![self.strokes.clone()], name),
-            Way::Restoration => restored(&self.strokes)
+            Way::Kes => Felt::of(vec![strokes.clone()], name),
+            Way::Restoration => restored(strokes)
                 .map_err(ReportError::from)
                 .and_then(|profiles| Felt::of(vec![profiles], name)),
-            Way::Picture(_) | Way::Whole => felt(&self.relief_of(&self.cell, way)?, name),
+            Way::Picture(_) | Way::Whole => felt(&self.relief_of(&self.analysis, way)?, name),
             Way::Believed => felt(&self.believed.as_ref().map_err(String::clone)?.1, name),
         };
         made.map_err(|error| error.to_string())
@@ -137,64 +141,59 @@ impl Subject {
 
     /// The relief that a picture shows, from the picture on.
     pub(super) fn relief(&self, way: Way) -> Result<HeightMap, String> {
+        let analysis = analysed(&self.photograph.luminance).ok_or("cancelled")?;
         match way {
-            Way::Whole => return self.relief_of(&self.cell, way),
-            Way::Believed => return Ok(self.believe()?.1),
-            _ => {}
+            Way::Believed => Ok(self.believe(&analysis)?.1),
+            _ => self.relief_of(&analysis, way),
         }
-        self.relief_of(&mean_cell(&self.photograph), way)
+    }
+
+    /// What heights are found on, as of a textile of a picture.
+    fn ground(&self, analysis: &Analysis, relief_of: ReliefOf) -> Result<Brightness, String> {
+        let found = analysis.found.as_ref();
+        let px_per_mm = Some(1.0 / self.photograph.px_mm[0]);
+        let picture = (relief_of, &analysis.luminance);
+        let ground = Brightness::ground(picture, found.ok(), px_per_mm, 1);
+        ground.ok_or_else(|| found.map_or_else(ToString::to_string, |_| String::new()))
     }
 
     /// The relief of a mean cell, or of the whole picture, as high as reads the SMD of the strokes.
-    fn relief_of(&self, cell: &Result<Rectangle, String>, way: Way) -> Result<HeightMap, String> {
-        let Way::Picture(method) = way else {
-            let whole = &self.photograph.luminance;
-            let light = self.told(whole)?;
-            return self.shaped(whole, light, self.photograph.px_mm, Method::Linear);
+    fn relief_of(&self, analysis: &Analysis, way: Way) -> Result<HeightMap, String> {
+        let (relief_of, method) = match way {
+            Way::Picture(method) => (ReliefOf::Cell, method),
+            _ => (ReliefOf::Picture, Method::Linear),
         };
-        let cell = cell.as_ref().map_err(String::clone)?;
-        let mut brightness = cell.values.clone();
-        for value in brightness.values_mut() {
-            *value = value.clamp(0.0, 1.0);
-        }
-        // The light turns with the cell; rows are those of heights, so angles count upwards.
-        let told = self.told(&self.photograph.luminance)?;
-        let light = Light {
-            tilt_deg: told.tilt_deg - cell.angle_rad.to_degrees(),
-            ..told
+        let light = match self.taking.lamp {
+            Lamp::Known { light, .. } => Some(light),
+            Lamp::Unknown | Lamp::Turned { .. } => None,
         };
-        let n = [brightness.width(), brightness.height()].map(|n| n as f64);
-        let step_mm = [0, 1].map(|i| cell.size_px[i] / n[i] * self.photograph.px_mm[i]);
-        self.shaped(&brightness, light, step_mm, method)
-    }
-
-    /// The light as it is told, or as it is estimated.
-    fn told(&self, luminance: &Grid<f64>) -> Result<Light, String> {
-        match self.lamp {
-            Lamp::Known { light, .. } => Ok(light),
-            Lamp::Unknown | Lamp::Turned { .. } => {
-                let estimate = LightEstimate::of(luminance).map_err(|error| error.to_string())?;
-                Ok(estimate.believed().light)
-            }
-        }
+        let options = ShadingOptions {
+            method,
+            ..ShadingOptions::default()
+        };
+        let ground = self.ground(analysis, relief_of)?;
+        let relief = Progress::unheard(|p| Relief::of(ground, light, &options, p));
+        let relief = relief.map_err(|error| error.to_string())?;
+        self.scaled(&relief.shape, relief.brightness.size_px)
     }
 
     /// Many reliefs of the whole picture, and the one that is kept.
-    fn believe(&self) -> Result<(Ensemble, HeightMap), String> {
-        let brightness = Brightness::of_picture(&self.photograph.luminance.turned_over(), 0.0);
+    fn believe(&self, analysis: &Analysis) -> Result<(Ensemble, HeightMap), String> {
+        let ground = self.ground(analysis, ReliefOf::Picture)?;
         let about = PictureTextile {
-            name: self.cloth.name.clone(),
+            name: self.known.cloth.name.clone(),
             px_per_mm: 1.0 / self.photograph.px_mm[0],
-            scale: HeightScale::SmdUm(smd_um(&self.strokes)),
+            size_px: Some(ground.size_px),
+            scale: HeightScale::SmdUm(smd_um(&self.known.strokes)),
             ..PictureTextile::default()
         };
         let failed = |error: TextileError| error.to_string();
         Progress::unheard(|progress| {
-            let lamp = self.lamp;
-            let ensemble = Ensemble::of(&brightness, &about, lamp, n_threads(), progress);
+            let lamp = self.taking.lamp;
+            let ensemble = Ensemble::of(&ground, &about, lamp, n_threads(), progress);
             let ensemble = ensemble.map_err(failed)?;
             let shape = ensemble.shape(&about).map_err(failed)?;
-            let map = self.scaled(&shape, self.photograph.px_mm)?;
+            let map = self.scaled(&shape, ground.size_px)?;
             Ok((ensemble, map))
         })
     }
@@ -202,32 +201,16 @@ impl Subject {
     /// Of warp and weft by band, the ends of the band less the truth, dB.
     pub(super) fn band_db(&self) -> Option<[[f64; 2]; 4]> {
         let (ensemble, _) = self.believed.as_ref().ok()?;
-        let bands = ensemble.levels([0, 1].map(|axis| self.truth.axis_levels_db[axis]));
+        let bands = ensemble.levels([0, 1].map(|axis| self.known.truth.axis_levels_db[axis]));
         let ends: Vec<[f64; 2]> = bands.iter().map(|&[.., low, high]| [low, high]).collect();
         ends.try_into().ok()
     }
 
-    fn shaped(
-        &self,
-        brightness: &Grid<f64>,
-        light: Light,
-        step_mm: [f64; 2],
-        method: Method,
-    ) -> Result<HeightMap, String> {
-        let options = ShadingOptions {
-            method,
-            ..ShadingOptions::default()
-        };
-        let shape = Progress::unheard(|progress| {
-            Shape::from_shading(brightness, light, &options, progress)
-        })
-        .map_err(|error| error.to_string())?;
-        self.scaled(&shape, step_mm)
-    }
-
-    /// A shape as high as reads the SMD of the strokes.
-    fn scaled(&self, shape: &Shape, step_mm: [f64; 2]) -> Result<HeightMap, String> {
-        let scale = HeightScale::SmdUm(smd_um(&self.strokes));
+    /// A shape of so many pixels of the picture as high as reads the SMD of the strokes.
+    fn scaled(&self, shape: &Shape, size_px: [f64; 2]) -> Result<HeightMap, String> {
+        let n = [shape.height_px.width(), shape.height_px.height()].map(|n| n as f64);
+        let step_mm = [0, 1].map(|i| size_px[i] / n[i] * self.photograph.px_mm[i]);
+        let scale = HeightScale::SmdUm(smd_um(&self.known.strokes));
         let tester =
             |map: &HeightMap, _: f64| strokes(map, &Probe::default(), 0.5, &Random::new(1));
         let scaled = ScaledRelief::of(shape, step_mm, scale, &tester).map_err(|e| e.to_string())?;

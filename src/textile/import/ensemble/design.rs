@@ -116,6 +116,11 @@ pub(super) fn drawn(lamp: Lamp) -> Vec<Member> {
 }
 
 impl Member {
+    /// Whether its model is shading; the other is dark is deep.
+    pub(super) fn is_shaded(&self) -> bool {
+        self.method != Method::DarkIsDeep
+    }
+
     /// Levels, the share of the picture that it does not explain, and its relief.
     pub(super) fn tried(
         &self,

@@ -3,7 +3,6 @@
 use super::super::height_scale::HeightScale;
 use super::{Ensemble, Lamp, Member};
 use crate::manifest::Uncertainty;
-use crate::picture::shading::Method;
 
 impl Ensemble {
     /// What to do about a band that is too wide, by what makes it wide for this picture.
@@ -16,8 +15,8 @@ impl Ensemble {
         let way = if deg < 45.0 { "warp" } else { "weft" };
         let b = usize::from(hz > 100.0);
         let level = |member: &Member| member.levels_db[usize::from(deg >= 45.0)][b];
-        let is_deep = |member: &&Member| member.method == Method::DarkIsDeep;
-        let (deep, shaded): (Vec<&Member>, Vec<&Member>) = self.members.iter().partition(is_deep);
+        let members = self.members.iter();
+        let (shaded, deep): (Vec<&Member>, Vec<&Member>) = members.partition(|one| one.is_shaded());
         let [deep, deep_spread] = mean_and_variance(&deep, level);
         let [shade, spread] = mean_and_variance(&shaded, level);
         let p = self.belief_in_shading();

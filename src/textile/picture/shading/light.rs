@@ -32,6 +32,18 @@ impl Light {
         [cos * tan, sin * tan]
     }
 
+    /// With its tilt grown by so much, −180° (not included) to 180°.
+    #[must_use]
+    pub fn turned(self, by_deg: f64) -> Self {
+        let tilt_deg = (self.tilt_deg + by_deg).rem_euclid(360.0);
+        let tilt_deg = if tilt_deg > 180.0 {
+            tilt_deg - 360.0
+        } else {
+            tilt_deg
+        };
+        Self { tilt_deg, ..self }
+    }
+
     pub(super) fn is_frontal(self) -> bool {
         self.slant_deg < FRONTAL_DEG
     }

@@ -2,7 +2,7 @@
 
 use super::super::PictureError;
 use super::super::analysis::Found;
-use super::super::brightness::{Brightness, turned};
+use super::super::brightness::Brightness;
 use super::super::light::mean_and_variance;
 use super::super::shading::{Light, Turns, View};
 use super::Turned;
@@ -39,7 +39,7 @@ impl Brightness {
     pub(crate) fn views(&self, on_picture: Light) -> Vec<View<'_>> {
         let first = (&self.values, self.light(on_picture));
         let others = self.turned.iter().map(|(values, turn_deg)| {
-            let light = turned(on_picture, -turn_deg);
+            let light = on_picture.turned(-turn_deg);
             (values, self.light(light))
         });
         std::iter::once(first).chain(others).collect()

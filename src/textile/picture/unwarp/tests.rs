@@ -81,6 +81,7 @@ fn what_repeats_nowhere_is_not_laid_straight() {
         p1_px: [12.0, 0.0],
         p2_px: [0.0, 11.0],
         confidence: 0.5,
+        false_alarm_rate: 0.0,
         method: "hough",
         thread_grid: None,
         held_out: None,
