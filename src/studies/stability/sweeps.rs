@@ -26,7 +26,7 @@ use std::f64::consts::TAU;
 /// Maps of what holds.
 pub(crate) const SWEEPS: Study = Study {
     name: "stability-sweeps",
-    chapter: "stability",
+    chapter: "sweeps",
     question: "How do errors grow on the way to each extreme, and where is the worst of it?",
     reference: "Of heights the method reference, and for offsets itself without one; of contactors \
                 the closed form of |H|; of energies what was there; of lattices the picture's.",
@@ -324,8 +324,8 @@ fn wall(stiffness: f64) -> Result<Vec<Row>, ReportError> {
     Ok(points)
 }
 
-/// Two waves of 9 px at an angle: a lattice that is given is within 5 % of the shorter vector, where
-/// the picture holds two of the longer; where it holds fewer, nothing is promised.
+/// Two waves of 9 px at an angle: a lattice that is given is within 5 % of the shorter vector,
+/// where the picture holds two of the longer; where it holds fewer, nothing is promised.
 fn lattice(degrees: f64) -> Result<Vec<Row>, ReportError> {
     let (sine, cosine) = degrees.to_radians().sin_cos();
     let picture = picture_of([[9.0, 0.0], [9.0 / cosine, 9.0 / sine]]);
