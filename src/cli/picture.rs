@@ -339,13 +339,15 @@ fn summary(
             format!("{out}: {} by the threads\n", with_unit(px, 3, "px/mm"))
         });
     format!(
-        "{out}: repeats by {} and {}{}, confidence {}, explains {} of the variance\n{counted}",
+        "{out}: repeats by {} and {}{}, confidence {}, by chance {}, explains {} of the variance\n\
+         {counted}",
         vector(lattice.p1_px),
         vector(lattice.p2_px),
         lattice
             .weave_name()
             .map_or_else(String::new, |name| format!(" ({name})")),
         fixed(lattice.confidence, 2),
+        with_unit(100.0 * lattice.false_alarm_rate, 2, "%"),
         fixed(*explained_variance, 2),
     )
 }

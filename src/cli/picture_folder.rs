@@ -16,7 +16,7 @@ use selvedge_textile::picture::Lattice;
 const ENDS: [&str; 6] = ["png", "jpg", "jpeg", "tif", "tiff", "bmp"];
 /// The table.
 const TABLE: &str = "pictures.csv";
-const COLUMNS: [&str; 11] = [
+const COLUMNS: [&str; 12] = [
     "image",
     "width_px",
     "height_px",
@@ -25,6 +25,7 @@ const COLUMNS: [&str; 11] = [
     "p2_x_px",
     "p2_y_px",
     "confidence",
+    "false_alarm_rate",
     "explained_variance",
     "weave",
     "reason",
@@ -78,7 +79,8 @@ fn add<W: Write>(row: &mut TableWriter<W>, told: Result<&Told, &String>) {
         let [x_px, y_px] = [0, 1].map(|axis| vector.map(|vector| vector[axis]));
         row.optional(x_px).optional(y_px);
     }
-    row.optional(lattice.map(|lattice| lattice.confidence));
+    row.optional(lattice.map(|lattice| lattice.confidence))
+        .optional(lattice.map(|lattice| lattice.false_alarm_rate));
     row.optional(found.ok().map(|(_, explained)| explained));
     let weave = lattice.and_then(Lattice::weave_name).unwrap_or_default();
     row.text(&weave)

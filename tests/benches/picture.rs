@@ -8,9 +8,13 @@ use std::time::Instant;
 
 use selvedge_foundation::numerics::{Grid, Random, median};
 use selvedge_foundation::progress::Progress;
+use selvedge_textile::picture::brightness::Brightness;
+use selvedge_textile::picture::shading::{ShadingError, ShadingOptions};
 use selvedge_textile::picture::{
-    Analysis, AnalysisOptions, Autocorrelation, DirectionOptions, EvenLight, Picture,
+    Analysis, AnalysisOptions, Autocorrelation, DirectionOptions, EvenLight, Picture, Relief,
+    ReliefOf,
 };
+use selvedge_textile::{Ensemble, HeightScale, Lamp, PictureTextile, TextileError};
 
 const ROUNDS: usize = 5;
 
@@ -37,8 +41,42 @@ fn main() {
                 assert!(black_box(is_found), "the bench's weave has a lattice");
             });
             println!("all stages of {side} × {side}, {n_threads} threads: {seconds:.3} s");
+            let seconds = timed(|| {
+                let files = felt(picture.clone(), &options);
+                assert!(black_box(files.is_ok_and(|n| n > 0)), "it can be felt");
+            });
+            println!("a textile of {side} × {side}, {n_threads} threads: {seconds:.3} s");
         }
     }
+}
+
+/// A textile of a picture whose light nobody knows; how many files it has.
+fn felt(picture: Picture, options: &AnalysisOptions) -> Result<usize, TextileError> {
+    Progress::unheard(|progress| {
+        let analysis = Analysis::of(picture, options, progress)?;
+        let found = analysis.found.as_ref().ok();
+        let ground = (ReliefOf::Picture, &analysis.luminance);
+        let brightness = Brightness::ground(ground, found, None, options.n_threads);
+        let brightness = brightness.ok_or(ShadingError::Empty)?;
+        let mut about = PictureTextile {
+            name: "Weave".to_owned(),
+            px_per_mm: 24.0,
+            scale: HeightScale::SmdUm(5.0),
+            size_px: Some(brightness.size_px),
+            ..PictureTextile::default()
+        };
+        // Another relief is kept than the first.
+        let shading = ShadingOptions {
+            iterations: Some(1),
+            ..ShadingOptions::default()
+        };
+        let mut relief = Relief::of(brightness, None, &shading, progress)?;
+        let (own, n) = ((&mut relief, false), options.n_threads);
+        Ensemble::believe(own, &mut about, Lamp::Unknown, n, progress)?;
+        let tile = found.map(|found| &found.tile);
+        let made = PictureTextile::files_of(&relief.shape, &relief.brightness, tile, &about)?;
+        Ok(made.files.len())
+    })
 }
 
 /// The median time of several rounds.

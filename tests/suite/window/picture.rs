@@ -160,6 +160,55 @@ fn a_lattice_that_is_dragged_shows_what_it_explains_and_is_taken_back() {
 }
 
 #[test]
+fn the_sun_is_dragged_over_the_photograph_and_the_experts_plots_unfold() {
+    let folder = Folder::new("picture-sun");
+    let mut harness = with_picture(&folder, cloth);
+    let sun = harness.get_by_label("Light from 0° clockwise of the top, 45° from above");
+    let at = sun.rect().center();
+    harness.drag_at(at);
+    harness.step();
+    for share in 1..=8_u8 {
+        harness.hover_at(at + vec2(5.0 * f32::from(share), 0.0));
+        harness.step();
+    }
+    harness.drop_at(at + vec2(40.0, 0.0));
+    harness.run_steps(6);
+    let before = harness.query_by_label("Light from 0° clockwise of the top, 45° from above");
+    assert!(before.is_none(), "the light was moved");
+    let sun = harness.get_by_label_contains("clockwise of the top");
+    assert!(sun.rect().center().x > at.x + 30.0, "it follows");
+    let is_shown = |harness: &Harness<'_, Workbench>| {
+        let plots = harness.query_by_role_and_label(Role::Image, "Autocorrelation");
+        plots.is_some()
+    };
+    assert!(!is_shown(&harness));
+    harness.get_by_label("Expert’s plots").click_accesskit();
+    harness.run_steps(2);
+    assert!(is_shown(&harness));
+}
+
+#[test]
+fn a_region_can_be_turned() {
+    let folder = Folder::new("picture-turn");
+    let mut harness = with_picture(&folder, cloth);
+    let angle = |harness: &Harness<'_, Workbench>| {
+        let [[x, y], _] = harness.state().picture_lattice().unwrap();
+        y.atan2(x).to_degrees()
+    };
+    assert!(angle(&harness).abs() < 1.0, "along the rows");
+    let region = "A rectangle, dragged on the picture";
+    harness.get_by_label(region).click_accesskit();
+    harness.run_steps(6);
+    harness.get_by_role_and_label(Role::Slider, "turn").focus();
+    for _ in 0..20 {
+        press(&mut harness, Modifiers::NONE, Key::ArrowRight);
+    }
+    harness.run_steps(6);
+    let turned = angle(&harness);
+    assert!((turned + 20.0).abs() < 1.5, "{turned}");
+}
+
+#[test]
 fn a_turned_picture_says_its_turn_and_how_well_it_matches_and_can_be_left_out() {
     use crate::picture_turned::{fleece, picture};
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bench::source_file::SourceFile;
 use selvedge_textile::picture::shading::{Light, Method};
-use selvedge_textile::picture::{Lattice, PictureScale, ReliefOf};
+use selvedge_textile::picture::{Lattice, PictureScale, Relief, ReliefOf};
 use selvedge_textile::surface::Representation;
 use selvedge_textile::{HeightScale, id_of};
 
@@ -54,6 +54,9 @@ pub(crate) struct Draft {
     pub turned: Vec<SourceFile>,
     /// The part of it.
     pub part: Part,
+    /// How far a region is turned, degrees clockwise.
+    #[serde(default)]
+    pub(crate) turn_deg: f64,
     /// Whether uneven light is divided out where it matters.
     pub(crate) is_evened: bool,
     /// The scale as typed.
@@ -93,6 +96,7 @@ impl Default for Draft {
             source: None,
             turned: Vec::new(),
             part: Part::Whole,
+            turn_deg: 0.0,
             is_evened: true,
             scale: String::new(),
             unit: ScaleUnit::Dpi,
@@ -150,6 +154,27 @@ impl Draft {
     /// Whether it is seen at a slant, so that no ruler holds for all of it.
     fn is_slanted(&self) -> bool {
         matches!(self.part, Part::Corners(_))
+    }
+
+    /// How far the part that is looked at is turned against the photograph, degrees clockwise.
+    fn turned_by_deg(&self) -> f64 {
+        match self.part {
+            Part::Region(_) => self.turn_deg,
+            Part::Whole | Part::Corners(_) => 0.0,
+        }
+    }
+
+    /// The light on the part that is looked at.
+    pub(crate) fn light_on_part(&self) -> Light {
+        self.light.turned(self.turned_by_deg())
+    }
+
+    /// The light on the photograph: as it is told, or as it was estimated on the part.
+    pub(crate) fn light_shown(&self, shaped: Option<&Relief>) -> Light {
+        let estimated = shaped.filter(|_| self.is_light_estimated);
+        estimated.map_or(self.light, |relief| {
+            relief.light.turned(-self.turned_by_deg())
+        })
     }
 
     /// The scale, px/mm, as far as it needs no threads, or with those of this lattice.
@@ -221,7 +246,8 @@ impl Draft {
 
     /// Whether the autocorrelations are the same.
     pub(crate) fn has_same_part(&self, other: &Self) -> bool {
-        self.has_same_file(other) && (self.part, self.is_evened) == (other.part, other.is_evened)
+        let part = |draft: &Self| (draft.part, draft.turned_by_deg(), draft.is_evened);
+        self.has_same_file(other) && part(self) == part(other)
     }
 
     /// Whether the same further pictures are laid over the same picture.
@@ -316,5 +342,21 @@ mod tests {
             ..draft.clone()
         };
         assert!(part.has_same_file(&draft) && !part.has_same_part(&draft));
+    }
+
+    #[test]
+    fn the_light_turns_with_a_region() {
+        let draft = Draft {
+            part: Part::Region([1, 2, 30, 40]),
+            turn_deg: 20.0,
+            ..Draft::default()
+        };
+        assert!((draft.light_on_part().tilt_deg - 110.0).abs() < 1e-9);
+        let whole = Draft {
+            part: Part::Whole,
+            ..draft.clone()
+        };
+        assert!((whole.light_on_part().tilt_deg - 90.0).abs() < 1e-9);
+        assert!(!whole.has_same_part(&draft));
     }
 }

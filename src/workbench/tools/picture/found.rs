@@ -19,9 +19,9 @@ pub(crate) enum Step {
     /// Which picture.
     Picture = 1,
     /// Light and height.
-    Light = 6,
+    Light = 4,
     /// The textile.
-    Felt = 7,
+    Felt = 5,
 }
 
 /// The decoded picture.
@@ -74,6 +74,8 @@ pub(crate) struct Cloth {
 pub(crate) struct Made {
     /// Its files.
     pub textile: Arc<Vec<NewTextile>>,
+    /// What was cut from the photograph, and what is felt of it under the same lamp.
+    pub(crate) compared: [Image; 2],
     /// The relief in its true scale.
     pub relief: Relief3d,
     /// From the lowest to the highest point, µm.

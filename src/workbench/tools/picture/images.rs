@@ -6,7 +6,9 @@ use eframe::egui::{Color32, ColorImage};
 
 use selvedge_foundation::files::Rgb8Image;
 use selvedge_foundation::numerics::{Grid, n_threads, to_byte, to_index};
-use selvedge_textile::picture::{Autocorrelation, Lattice, Tile, overlay, range};
+use selvedge_textile::picture::shading::picture_of;
+use selvedge_textile::picture::{Autocorrelation, Lattice, Relief, Tile, overlay, range};
+use selvedge_textile::surface::HeightMap;
 
 /// Pixels along the longer side of a picture that is shown at most.
 const MOST_SIDE: usize = 640;
@@ -49,6 +51,16 @@ pub(crate) fn thumbnail(luminance: &Grid<f64>) -> Image {
         }
     }
     grey(&small, (0.0, 1.0))
+}
+
+/// The brightness that a relief was found on, and as much of the map that is felt under its light.
+pub(crate) fn compared(relief: &Relief, map: &HeightMap) -> [Image; 2] {
+    let seen = &relief.brightness.values;
+    let um_a_px = 1000.0 * map.step_mm()[0];
+    let heights_px = map.heights_um().map(|um| um / um_a_px);
+    let lit = picture_of(&heights_px, relief.brightness.light(relief.light));
+    let lit = lit.part([0, 0, seen.width(), seen.height()]).unwrap_or(lit);
+    [seen, &lit].map(|one| grey(&one.turned_over(), range(one)))
 }
 
 fn pixels_of(image: Rgb8Image) -> Image {

@@ -11,6 +11,7 @@ pub(crate) mod draft;
 pub(crate) mod export;
 pub(crate) mod found;
 pub(crate) mod images;
+pub(crate) mod region;
 pub(crate) mod state;
 pub(crate) mod textile;
 pub(crate) mod textures;

@@ -23,6 +23,8 @@ pub(crate) struct Picture {
     pub draft: Draft,
     /// The lattice's vectors while one is being dragged, px.
     pub(crate) dragged: Option<[[f64; 2]; 2]>,
+    /// Whether the expert's plots are shown too.
+    pub(crate) is_expert: bool,
     /// The stages as textures.
     pub(crate) textures: Textures,
     work: Latest<Draft, Found>,
@@ -77,6 +79,7 @@ impl Picture {
         let draft = Draft {
             source: Some(path.into()),
             part: Part::Whole,
+            turn_deg: 0.0,
             turned: Vec::new(),
             ruler: None,
             lambda: None,
@@ -129,6 +132,7 @@ impl Picture {
     pub(crate) fn clear(&mut self) {
         self.cancel();
         *self = Self {
+            is_expert: self.is_expert,
             textures: std::mem::take(&mut self.textures),
             ..Self::default()
         };

@@ -7,6 +7,7 @@ use crate::bench::source_file::SourceFile;
 use crate::kit::widgets::relief3d::Relief3d;
 use crate::tools::picture::draft::Draft;
 use crate::tools::picture::found::{Loaded, Made};
+use crate::tools::picture::images;
 use selvedge_foundation::numerics::{Grid, extent};
 use selvedge_foundation::progress::Progress;
 use selvedge_textile::picture::{Found as Tiled, Relief, ReliefOf, Turned, TurnedPicture};
@@ -71,6 +72,7 @@ pub(super) fn made(
         ..Uncertainty::default()
     };
     Ok(Made {
+        compared: images::compared(&relief, &made.map),
         relief: Relief3d::of(&made.map),
         relief_um: high_um - low_um,
         smd_um: smd_um(&made.profiles),
@@ -90,7 +92,7 @@ fn lamp(inputs: &Draft) -> Lamp {
         Lamp::Unknown
     } else {
         Lamp::Known {
-            light: inputs.light,
+            light: inputs.light_on_part(),
             within_deg: Lamp::WITHIN_DEG,
         }
     }

@@ -10,17 +10,29 @@ use crate::kit::widgets::relief3d::View3d;
 use crate::tools::picture::found::Made;
 use crate::tools::picture::images::Image;
 
-/// Cards of stages; what is numbered from here on is none.
-pub(crate) const N_CARDS: usize = 8;
+/// Pictures of stages; what is numbered from here on is none.
+pub(crate) const N_CARDS: usize = 10;
 
 /// Stages as textures, and from where the relief is looked at.
-#[derive(Default)]
 pub(crate) struct Textures {
     stages: BTreeMap<usize, Texture<Same<ColorImage>>>,
     /// From where the relief is looked at.
     pub(crate) view: Option<View3d>,
     /// The relief that was shown last.
     pub(crate) made: Option<Arc<Made>>,
+    /// Where the photograph ends and its relief begins, share of the width.
+    pub(crate) divided_at: f32,
+}
+
+impl Default for Textures {
+    fn default() -> Self {
+        Self {
+            stages: BTreeMap::new(),
+            view: None,
+            made: None,
+            divided_at: 0.5,
+        }
+    }
 }
 
 impl Textures {

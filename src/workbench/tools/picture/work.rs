@@ -7,6 +7,7 @@ use crate::bench::latest::Computed;
 use crate::tools::picture::draft::{Draft, Part};
 use crate::tools::picture::found::{Cloth, Correlated, Found, Loaded, Step};
 use crate::tools::picture::images;
+use crate::tools::picture::region::turned_corners;
 use crate::tools::picture::textile::made;
 use crate::tools::picture::turned::{even, laid, turned};
 use selvedge_foundation::files::sha256_hex;
@@ -201,7 +202,11 @@ fn loaded(inputs: &Draft) -> Result<Loaded, End> {
 fn correlated(inputs: &Draft, loaded: &Loaded) -> Result<Correlated, End> {
     let part = match inputs.part {
         Part::Whole => Ok(loaded.picture.clone()),
-        Part::Region(region) => loaded.picture.part(region),
+        Part::Region(region) if inputs.turn_deg.abs() < 0.01 => loaded.picture.part(region),
+        Part::Region(region) => {
+            let corners = turned_corners(region, inputs.turn_deg, loaded.size);
+            loaded.picture.rectified(corners)
+        }
         Part::Corners(corners) => loaded.picture.rectified(corners),
     };
     let picture = part.map_err(|error| End::Failed(Step::Picture, error.to_string()))?;
@@ -346,7 +351,7 @@ fn shaped(
     };
     let no_cell = "there is no lattice and so no mean cell; choose “as scanned”";
     let brightness = brightness.ok_or_else(|| End::Failed(Step::Light, no_cell.to_owned()))?;
-    let light = (!inputs.is_light_estimated).then_some(inputs.light);
+    let light = (!inputs.is_light_estimated).then(|| inputs.light_on_part());
     let options = ShadingOptions {
         method: inputs.method.unwrap_or_default(),
         ..ShadingOptions::default()

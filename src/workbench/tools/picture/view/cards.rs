@@ -12,11 +12,11 @@ use crate::kit::theme::Palette;
 use crate::kit::widgets::relief3d;
 use crate::kit::widgets::relief3d::View3d;
 use crate::kit::widgets::text::paint_quiet;
-use crate::tools::picture::draft::ScaleUnit;
+use crate::tools::picture::draft::{Draft, ScaleUnit};
 use crate::tools::picture::found::{Cloth, Found, Made};
 use crate::tools::picture::state::Picture;
 use crate::tools::picture::textures::Textures;
-use crate::tools::picture::view::{frame, plots};
+use crate::tools::picture::view::{before_after, frame, plots, sun};
 use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity;
 
@@ -30,22 +30,26 @@ const N_MAXIMA: usize = 60;
 const N_NUMBERED: usize = 6;
 /// A card is small: the relief is first drawn this near.
 const FIRST_ZOOM: f32 = 1.6;
-/// The cards in their order.
-const TITLES: [&str; 8] = [
+/// What the cards are called.
+const TITLES: [&str; 9] = [
     "1  The picture",
-    "2  Autocorrelation",
-    "3  Directions",
-    "4  Lattice",
-    "5  Cloth of the tile",
-    "5  Not explained",
-    "6  Relief",
-    "7  Strokes",
+    "Autocorrelation",
+    "Directions",
+    "2  Lattice",
+    "3  Cloth of the tile",
+    "Not explained",
+    "4  Relief",
+    "5  Strokes",
+    "4  Before → after",
 ];
+/// Those that are always shown, and all, in their order.
+const PLAIN: [usize; 4] = [0, 3, 8, 6];
+const ALL: [usize; 9] = [0, 1, 2, 3, 4, 5, 8, 6, 7];
 
-/// Columns of cards that make them largest in a room.
-fn n_columns(size: eframe::egui::Vec2) -> usize {
+/// Columns of so many cards that make them largest in a room.
+fn n_columns(n_cards: usize, size: eframe::egui::Vec2) -> usize {
     let side = |n: usize| {
-        let rows = TITLES.len().div_ceil(n) as f32;
+        let rows = n_cards.div_ceil(n) as f32;
         let (w, h) = (size.x / n as f32 - GAP, size.y / rows - GAP - TITLE);
         w.min(h)
     };
@@ -58,8 +62,9 @@ fn n_columns(size: eframe::egui::Vec2) -> usize {
 /// Shows the cards.
 pub(crate) fn show(ui: &mut Ui, picture: &mut Picture) {
     let whole = ui.available_rect_before_wrap();
-    let columns = n_columns(whole.size());
-    let rows = TITLES.len().div_ceil(columns);
+    let cards: &[usize] = if picture.is_expert { &ALL } else { &PLAIN };
+    let columns = n_columns(cards.len(), whole.size());
+    let rows = cards.len().div_ceil(columns);
     let size = vec2(
         (whole.width() - GAP * (columns - 1) as f32) / columns as f32,
         (whole.height() - GAP * (rows - 1) as f32) / rows as f32,
@@ -68,11 +73,12 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture) {
     let is_fresh = picture.standing() == Standing::Fresh;
     let is_same_file = |found: &&Found| found.inputs.source == picture.draft.source;
     let found = found.as_deref().filter(is_same_file);
-    for (card, title) in TITLES.iter().enumerate() {
-        let place = vec2((card % columns) as f32, (card / columns) as f32);
+    for (nth, &card) in cards.iter().enumerate() {
+        let title = TITLES[card];
+        let place = vec2((nth % columns) as f32, (nth / columns) as f32);
         let at = whole.min + place * (size + vec2(GAP, GAP));
         let rect = Rect::from_min_size(at, size);
-        paint_quiet(ui.painter(), rect.min, Align2::LEFT_TOP, *title);
+        paint_quiet(ui.painter(), rect.min, Align2::LEFT_TOP, title);
         let room = rect.with_min_y(rect.top() + TITLE);
         let mut child = ui.new_child(UiBuilder::new().max_rect(room).id_salt(title));
         child.set_clip_rect(room.expand(4.0).intersect(ui.clip_rect()));
@@ -96,30 +102,22 @@ fn show_card(ui: &mut Ui, card: usize, picture: &mut Picture, found: Option<&Fou
     let (textures, draft) = (&mut picture.textures, &mut picture.draft);
     let dragged = &mut picture.dragged;
     let images = cloth.and_then(|cloth| cloth.images.as_ref());
-    if card == 6 {
+    if let 6 | 8 = card {
         let Some(made) = found.and_then(|found| found.made.as_ref()) else {
             return nothing(ui, room, waiting);
         };
-        return show_relief(ui, made, textures);
+        if card == 6 {
+            return show_relief(ui, made, textures);
+        }
+        return before_after::show(ui, room, &made.compared, (textures, card));
     }
-    let title = TITLES[card].split_once("  ").map_or("", |(_, title)| title);
+    let title = TITLES[card];
+    let title = title.split_once("  ").map_or(title, |(_, title)| title);
     let response = ui.interact(room, ui.scope_id().with("card"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, title));
     let painter = ui.painter().clone();
     let is_shown = match card {
-        0 => found
-            .and_then(|found| found.loaded.as_deref())
-            .map(|loaded| {
-                let rect = textures.paint(&painter, room, card, &loaded.image);
-                frame::show(ui, rect, loaded.size, &mut draft.part);
-                if let Some(ends) = draft
-                    .ruler
-                    .as_mut()
-                    .filter(|_| draft.unit == ScaleUnit::Ruler)
-                {
-                    frame::show_ruler(ui, rect, loaded.size, ends);
-                }
-            }),
+        0 => found.and_then(|found| photograph(ui, room, (textures, draft), found)),
         1 => cloth.and_then(|cloth| correlation(&painter, room, cloth, textures)),
         2 => cloth
             .and_then(|cloth| cloth.directions.as_ref())
@@ -144,6 +142,27 @@ fn show_card(ui: &mut Ui, card: usize, picture: &mut Picture, found: Option<&Fou
     if is_shown.is_none() {
         nothing(ui, room, waiting);
     }
+}
+
+/// The photograph, with what is dragged on it: part, ruler and sun.
+fn photograph(
+    ui: &Ui,
+    room: Rect,
+    (textures, draft): (&mut Textures, &mut Draft),
+    found: &Found,
+) -> Option<()> {
+    let loaded = found.loaded.as_deref()?;
+    let rect = textures.paint(ui.painter(), room, 0, &loaded.image);
+    frame::show(ui, rect, loaded.size, (&mut draft.part, draft.turn_deg));
+    let is_measured = draft.unit == ScaleUnit::Ruler;
+    if let Some(ends) = draft.ruler.as_mut().filter(|_| is_measured) {
+        frame::show_ruler(ui, rect, loaded.size, ends);
+    }
+    let light = draft.light_shown(found.shaped.as_deref());
+    if let Some(light) = sun::show(ui, rect, light) {
+        (draft.light, draft.is_light_estimated) = (light, false);
+    }
+    Some(())
 }
 
 /// Why a card is empty.

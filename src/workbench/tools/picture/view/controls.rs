@@ -10,17 +10,18 @@ use crate::bench::pane::Pane;
 use crate::bench::source_file::SourceFile;
 use crate::kit::theme::{Palette, STEP};
 use crate::kit::widgets::fields::{Need, Tone, choose_of, note, note_if, row_of, step_title, text};
+use crate::kit::widgets::fold::described_fold;
 use crate::kit::widgets::scale::Scale;
 use crate::kit::widgets::slider::{RowShape, slider_row_as};
 use crate::kit::widgets::text::{button, paragraph, quiet, toggle, toggles};
 use crate::tools::picture::draft::{Draft, Part, ScaleUnit};
 use crate::tools::picture::found::{Found, Step};
 use crate::tools::picture::state::Picture;
-use crate::tools::picture::view::{hemisphere, repeats, turned};
+use crate::tools::picture::view::{repeats, turned};
 #[cfg(feature = "friction")]
 use selvedge_foundation::numerics::to_single;
 use selvedge_foundation::quantity;
-use selvedge_textile::picture::shading::Method;
+use selvedge_textile::picture::shading::{Light, Method};
 use selvedge_textile::picture::{Relief, ReliefOf};
 
 /// Room for the name of a field, points.
@@ -38,6 +39,13 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) 
     let shaped = found.and_then(|found| found.shaped.as_deref());
     show_light(ui, &mut picture.draft, shaped);
     show_failure(ui, found, Step::Light);
+    let words = "autocorrelation, directions, strokes";
+    let head = described_fold(ui, ("Expert’s plots", picture.is_expert), words, |ui| {
+        repeats::show_directions(ui, &mut picture.draft, cloth);
+    });
+    if head.clicked() {
+        picture.is_expert = !picture.is_expert;
+    }
 }
 
 fn show_failure(ui: &mut Ui, found: Option<&Found>, step: Step) {
@@ -175,6 +183,10 @@ fn show_part(ui: &mut Ui, draft: &mut Draft, size: [usize; 2]) {
             draft.part = Part::Corners(corners);
         }
     });
+    if let Part::Region(_) = draft.part {
+        let scale = Scale::even([-180.0, 180.0], 0.0, 1.0, (1, "°"));
+        draft.turn_deg = slider(ui, "turn", scale, draft.turn_deg).unwrap_or(draft.turn_deg);
+    }
 }
 
 pub(super) fn slider(ui: &mut Ui, name: &str, scale: Scale, value: f64) -> Option<f64> {
@@ -193,44 +205,23 @@ fn show_light(ui: &mut Ui, draft: &mut Draft, shaped: Option<&Relief>) {
     } else {
         "as given"
     };
-    step_title(ui, 6, "Light and relief", state);
-    let light = shaped
-        .filter(|_| draft.is_light_estimated)
-        .map_or(draft.light, |s| s.light);
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 2.0 * STEP;
-        if let Some(dragged) = hemisphere::show(ui, light) {
-            (draft.light, draft.is_light_estimated) = (dragged, false);
-        }
-        ui.vertical(|ui| {
-            let slant = slider(
-                ui,
-                "slant",
-                Scale::even([5.0, 80.0], 45.0, 1.0, (0, "°")),
-                light.slant_deg,
-            );
-            let tilt = slider(
-                ui,
-                "tilt",
-                Scale::even([-180.0, 180.0], 90.0, 1.0, (0, "°")),
-                light.tilt_deg,
-            );
-            if slant.is_some() || tilt.is_some() {
-                draft.light = light;
-                draft.is_light_estimated = false;
-            }
-            draft.light.slant_deg = slant.unwrap_or(draft.light.slant_deg);
-            draft.light.tilt_deg = tilt.unwrap_or(draft.light.tilt_deg);
-            if toggle(
-                ui,
-                "estimate it",
-                draft.is_light_estimated,
-                "Estimate the light",
-            ) {
-                draft.is_light_estimated = !draft.is_light_estimated;
-            }
-        });
-    });
+    step_title(ui, 4, "Light and relief", state);
+    let light = draft.light_shown(shaped);
+    let slants = Scale::even([5.0, 80.0], 45.0, 1.0, (0, "°"));
+    let slant = slider(ui, "slant", slants, light.slant_deg);
+    let tilts = Scale::even([-180.0, 180.0], 90.0, 1.0, (0, "°"));
+    let tilt = slider(ui, "tilt", tilts, light.tilt_deg);
+    if slant.is_some() || tilt.is_some() {
+        draft.light = Light {
+            slant_deg: slant.unwrap_or(light.slant_deg),
+            tilt_deg: tilt.unwrap_or(light.tilt_deg),
+        };
+        draft.is_light_estimated = false;
+    }
+    let tip = "Estimate the light; or drag the sun over the picture";
+    if toggle(ui, "estimate it", draft.is_light_estimated, tip) {
+        draft.is_light_estimated = !draft.is_light_estimated;
+    }
     show_method(ui, draft);
     if let Some(shaped) = shaped {
         show_trust(ui, shaped);

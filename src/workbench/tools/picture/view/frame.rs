@@ -4,6 +4,7 @@ use eframe::egui::{CursorIcon, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, 
 
 use crate::kit::theme::Palette;
 use crate::tools::picture::draft::Part;
+use crate::tools::picture::region::{turned_corners, turned_place};
 use selvedge_foundation::numerics::{to_index, to_single};
 
 /// Half the width of a handle, points.
@@ -14,8 +15,8 @@ const LEAST_PX: f64 = 16.0;
 const EDGES: [[usize; 2]; 4] = [[0, 1], [2, 1], [2, 3], [0, 3]];
 
 /// Shows the part over a picture of this many pixels that is drawn in `rect`; lets it be dragged.
-pub(crate) fn show(ui: &Ui, rect: Rect, size: [usize; 2], part: &mut Part) {
-    let size = size.map(|n| n as f64);
+pub(crate) fn show(ui: &Ui, rect: Rect, size_px: [usize; 2], (part, turn_deg): (&mut Part, f64)) {
+    let size = size_px.map(|n| n as f64);
     match part {
         Part::Whole => {}
         Part::Corners(corners) => {
@@ -28,13 +29,20 @@ pub(crate) fn show(ui: &Ui, rect: Rect, size: [usize; 2], part: &mut Part) {
         Part::Region(region) => {
             let [x, y, w, h] = region.map(|n| n as f64);
             let mut ends = [x, y, x + w, y + h];
-            let corner = |ends: [f64; 4], nth: usize| [ends[EDGES[nth][0]], ends[EDGES[nth][1]]];
-            let places = [0, 1, 2, 3].map(|nth| on_screen(rect, size, corner(ends, nth)));
-            outline(ui, &places);
-            for nth in 0..4 {
-                let before = corner(ends, nth);
+            let corners = turned_corners(*region, turn_deg, size_px);
+            outline(ui, &corners.map(|place| on_screen(rect, size, place)));
+            for (nth, before) in corners.into_iter().enumerate() {
                 let after = handle(ui, (rect, size), &corner_name(nth), before);
-                (ends[EDGES[nth][0]], ends[EDGES[nth][1]]) = (after[0], after[1]);
+                let moved = turned_place([0, 1].map(|i| after[i] - before[i]), -turn_deg);
+                let [side, end] = EDGES[nth];
+                (ends[side], ends[end]) = (ends[side] + moved[0], ends[end] + moved[1]);
+            }
+            // The corner opposite stays where it is though the region turns about its middle.
+            let middle = [0, 1].map(|i| 0.5 * (ends[i] + ends[i + 2]));
+            let off = [middle[0] - x - 0.5 * w, middle[1] - y - 0.5 * h];
+            let turned = turned_place(off, turn_deg);
+            for (i, end) in ends.iter_mut().enumerate() {
+                *end += turned[i % 2] - off[i % 2];
             }
             *region = region_of(ends, size);
         }
@@ -103,7 +111,7 @@ fn outline(ui: &Ui, places: &[Pos2; 4]) {
 }
 
 /// A line that shows on every cloth: dark below light.
-fn line(ui: &Ui, ends: [Pos2; 2]) {
+pub(super) fn line(ui: &Ui, ends: [Pos2; 2]) {
     let dark = Stroke::new(3.0, Palette::in_ui(ui).rim);
     ui.painter().line_segment(ends, dark);
     let white = Stroke::new(1.0, eframe::egui::Color32::WHITE);

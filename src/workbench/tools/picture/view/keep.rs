@@ -23,7 +23,7 @@ pub(crate) fn show(ui: &mut Ui, picture: &mut Picture, commands: &mut Commands) 
         let relief = with_unit(made.relief_um, 0, "µm");
         format!("relief {relief}, SMD {}", with_unit(made.smd_um, 2, "µm"))
     });
-    step_title(ui, 7, "To the fingertip", &figures);
+    step_title(ui, 5, "To the fingertip", &figures);
     show_height(ui, &mut picture.draft);
     let own = picture.draft.own_name();
     row_of(ui, 44.0, ("name", ""), |ui, label| {

@@ -3,13 +3,14 @@
 //! What is chosen and typed on the left, step by step; what each stage made of it on the right.
 //! Draws what was made.
 
+pub(crate) mod before_after;
 pub(crate) mod cards;
 pub(crate) mod controls;
 pub(crate) mod frame;
-pub(crate) mod hemisphere;
 pub(crate) mod keep;
 pub(crate) mod plots;
 pub(crate) mod repeats;
+pub(crate) mod sun;
 pub(crate) mod turned;
 
 use eframe::egui::{Ui, vec2};

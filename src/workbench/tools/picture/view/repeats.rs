@@ -11,24 +11,18 @@ use crate::tools::picture::found::Cloth;
 use crate::tools::picture::textures::{N_CARDS, Textures};
 use crate::tools::picture::view::controls::slider;
 use selvedge_foundation::quantity::{self, with_unit};
-use selvedge_textile::picture::{Directions, Lattice};
+use selvedge_textile::picture::Lattice;
 
 /// The side of a piece of cloth that is offered, points.
 const FOLDED: f32 = 60.0;
 
-/// Directions, lattice and tile.
+/// Lattice and tile.
 pub(super) fn show(
     ui: &mut Ui,
     (draft, textures): (&mut Draft, &mut Textures),
     cloth: Option<&Cloth>,
 ) {
-    let directions = cloth.and_then(|cloth| cloth.directions.as_ref());
-    let n = cloth.map_or(0, |cloth| cloth.maxima.len());
     ui.add_space(STEP);
-    step_title(ui, 2, "Autocorrelation", &format!("{n} maxima count"));
-    if let Some(directions) = directions {
-        show_directions(ui, draft, directions);
-    }
     match cloth.map(|cloth| (cloth, &cloth.found)) {
         Some((cloth, Ok(tiled))) => {
             show_lattice(ui, draft, &tiled.lattice);
@@ -37,7 +31,7 @@ pub(super) fn show(
                 .flat_part
                 .map_or(tiled.explained_variance, |(_, share)| share);
             let share = with_unit(100.0 * share, 0, "%");
-            step_title(ui, 5, "Tile", &format!("explains {share} of the variance"));
+            step_title(ui, 3, "Tile", &format!("explains {share} of the variance"));
             if let Some(unwarped) = &tiled.unwarped {
                 let words = format!("Laid straight: {}.", unwarped.words());
                 note(ui, &words, Tone::Quiet);
@@ -56,13 +50,13 @@ pub(super) fn show(
             }
         }
         Some((cloth, Err(reason))) => {
-            step_title(ui, 4, "Lattice", "none");
+            step_title(ui, 2, "Lattice", "none");
             note(ui, &format!("No lattice: {reason}."), Tone::Wrong);
             let words = "Felt as scanned or synthesized all the same.";
             note(ui, words, Tone::Quiet);
             offered(ui, draft, cloth, textures);
         }
-        None => step_title(ui, 4, "Lattice", ""),
+        None => step_title(ui, 2, "Lattice", ""),
     }
 }
 
@@ -80,11 +74,12 @@ fn show_lattice(ui: &mut Ui, draft: &Draft, lattice: &Lattice) {
         held_out_words("chosen, explains", lattice)
     } else {
         format!(
-            "confidence {}",
-            with_unit(100.0 * lattice.confidence, 0, "%")
+            "confidence {}, by chance {}",
+            with_unit(100.0 * lattice.confidence, 0, "%"),
+            with_unit(100.0 * lattice.false_alarm_rate, 1, "%")
         )
     };
-    step_title(ui, 4, "Lattice", &judged);
+    step_title(ui, 2, "Lattice", &judged);
     for (name, vector) in [("p1", lattice.p1_px), ("p2", lattice.p2_px)] {
         note(
             ui,
@@ -140,17 +135,17 @@ fn offered(ui: &mut Ui, draft: &mut Draft, cloth: &Cloth, textures: &mut Texture
     });
 }
 
-fn show_directions(ui: &mut Ui, draft: &mut Draft, directions: &Directions) {
-    step_title(
+/// What the directions are measured by.
+pub(super) fn show_directions(ui: &mut Ui, draft: &mut Draft, cloth: Option<&Cloth>) {
+    let n = cloth.map_or(0, |cloth| cloth.maxima.len());
+    note(
         ui,
-        3,
-        "Directions",
-        if draft.lambda.is_none() {
-            "λ by the maxima"
-        } else {
-            ""
-        },
+        &format!("{n} maxima of the autocorrelation count"),
+        Tone::Quiet,
     );
+    let Some(directions) = cloth.and_then(|cloth| cloth.directions.as_ref()) else {
+        return;
+    };
     let resting = directions.lambda_per_px;
     let scale = Scale {
         curve: Curve::Decades(2.4),
