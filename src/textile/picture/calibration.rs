@@ -4,7 +4,8 @@
 //! is no null here: its autocorrelation is the same, and all evidence is of that.
 
 /// With seeds 2 and 3 of that study, by [`Agreement`]: weaves, six ways taken, whose lattice was
-/// right, and all that were given one; pictures that repeat nowhere and were given one all the same.
+/// right, and all that were given one; pictures that repeat nowhere and were given one all the
+/// same.
 const COUNTED: [[f64; 3]; 4] = [
     [1257.0, 1281.0, 0.0],
     [17.0, 20.0, 0.0],
