@@ -229,10 +229,10 @@ fn judged((hundredths, [n, n_right]): (&u8, &[u32; 2])) -> Row {
 }
 
 fn notes(calibration: &Calibration) -> Vec<String> {
-    let weaves = "Fifteen weaves of 2 to 18 threads a repeat, 5 to 11 px a thread, 4.5 to 9 repeats a \
-                  side (up to 420 px), yarns uneven in brightness and place, warp up to 25 % \
-                  brighter than weft. Not drawn by the models of textiles. What is stated of a \
-                  lattice was counted on other pictures of these kinds, with seeds 2 and 3.";
+    let weaves = "Fifteen weaves of 2 to 18 threads a repeat, 5 to 11 px a thread, 4.5 to 9 \
+                  repeats a side (up to 420 px), yarns uneven in brightness and place, warp up to \
+                  25 % brighter than weft. Not drawn by the models of textiles. What is stated of \
+                  a lattice was counted on other pictures of these kinds, with seeds 2 and 3.";
     let judged = |(said, [all, right]): (&u8, &[u32; 2])| {
         let share = f64::from(*right) / f64::from(*all);
         format!("Confidence 0.{said:02}: {share:.3} of {all} were right.")
