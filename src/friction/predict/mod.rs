@@ -103,9 +103,7 @@ impl PredictedFriction {
         )
     }
 
-    /// How far it is from the trace that was felt there, by [`Scores::COLUMNS`].
-    ///
-    /// [`Scores::COLUMNS`]: crate::Scores::COLUMNS
+    /// How far it is from the trace that was felt there, by each [`Measure`](crate::Measure).
     pub fn scores(&self, felt: &[f64]) -> Measures {
         score(&Prediction::of_course(&self.course), felt)
     }
