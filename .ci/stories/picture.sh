@@ -19,7 +19,7 @@ sleep 6
 shot opened
 slowly 'mousemove 95 165' 'click 1' "type --delay 40 '300'" 'key Tab' 'mousemove 90 618' 'click 1' \
   "type --delay 40 '120'" 'key Tab' 'mousemove 150 420' \
-  'click --repeat 30 5' 'mousemove 168 466' 'click 1'
+  'click --repeat 30 5' 'mousemove 168 434' 'click 1'
 sleep 3
 await 100 is_made || fail "the textile is never made"
 shot made
