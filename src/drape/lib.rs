@@ -67,7 +67,7 @@ pub use scene::DrapeScene;
 pub use tester::{TestedFigure, test_fabric};
 
 /// Acceleration of gravity, m/s².
-pub(crate) const GRAVITY: f64 = 9.806_65;
+pub const GRAVITY: f64 = 9.806_65;
 
 #[cfg(test)]
 mod tests;

@@ -102,9 +102,9 @@ impl Measure {
         Self::COLUMNS[self as usize]
     }
 
-    /// Its value among all.
-    pub const fn of(self, measures: &Measures) -> f64 {
-        measures[self as usize]
+    /// Its own of what there is by each.
+    pub const fn of<T: Copy>(self, all: &[T; Self::N]) -> T {
+        all[self as usize]
     }
 }
 

@@ -37,7 +37,7 @@ fn off(measure: Measure, value: f64) -> f64 {
 fn best(rows: &[Row], measure: Measure) -> Option<&Row> {
     let told_nothing = rows.iter().filter(|row| !is_told_answer(row.name));
     told_nothing.min_by(|a, b| {
-        let [a, b] = [a, b].map(|row| off(measure, row.measures[measure as usize][0]));
+        let [a, b] = [a, b].map(|row| off(measure, measure.of(&row.measures)[0]));
         a.total_cmp(&b)
     })
 }
@@ -53,7 +53,7 @@ fn winners(rows: &[Row]) -> Vec<String> {
     let ours = rows.iter().find(|row| row.name == Method::Ours.word());
     let sentence = |(measure, what, unit): (Measure, &str, &str)| {
         let best = best(rows, measure)?;
-        let value = |row: &Row| row.measures[measure as usize][0];
+        let value = |row: &Row| measure.of(&row.measures)[0];
         let before = ours.filter(|ours| ours.name != best.name).map(|ours| {
             let far = fixed(value(ours) - value(best), 2);
             format!(", {far} {unit} before {}", ours.name)
@@ -88,7 +88,9 @@ pub(super) fn table(rows: &[Row]) -> Vec<String> {
         let cell = |(measure, _, digits): (Measure, &str, usize)| {
             let is_best = best(rows, measure).is_some_and(|best| best.name == row.name);
             let star = if is_best { "*" } else { "" };
-            let [mean, sd] = row.measures[measure as usize].map(|number| fixed(number, digits));
+            let [mean, sd] = measure
+                .of(&row.measures)
+                .map(|number| fixed(number, digits));
             if row.n_runs > 1 {
                 format!("{star}{mean} ± {sd}")
             } else {

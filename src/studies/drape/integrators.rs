@@ -9,7 +9,7 @@ use crate::chart::{chart, error_against_time, place};
 use crate::readable::{number, whole};
 use crate::{Bench, Effort, Findings, ReportError, Row, Study, Timing};
 use selvedge_chart::{Axis, Chart, Style};
-use selvedge_drape::{Drape, Hand, Integrator};
+use selvedge_drape::{Drape, GRAVITY, Hand, Integrator};
 use selvedge_foundation::progress::thread_cpu_seconds;
 
 /// Error against run time.
@@ -84,8 +84,6 @@ const WAYS: [(Integrator, f64); 11] = [
     (Integrator::Projective, 1.0 / 240.0),
 ];
 
-/// m/s².
-const GRAVITY: f64 = 9.806_65;
 /// Stiffnesses of yarns, N/m, to beyond any cloth's.
 const STIFFNESSES: [f64; 6] = [1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
 /// What precedes conjugate gradients: the second is what steps use.
@@ -289,9 +287,9 @@ fn compare(motion: &Motion, bench: &Bench<'_>) -> Result<Vec<Row>, ReportError> 
         let counters = *drape.counters();
         let percent = 100.0 * (left_j(&mut drape) - left_j(&mut reference)) / drape.scale_j();
         // Where it falls any step comes late to a fold that snaps.
-        let is_any = motion.name == STRETCH.name || motion.sample.stiffness_n_per_m.is_none();
+        let is_stiffened = motion.name == SWING.name && motion.sample.stiffness_n_per_m.is_some();
         let promised = match integrator {
-            _ if motion.name == FALL.name || !is_any => None,
+            _ if motion.name == FALL.name || is_stiffened => None,
             Integrator::Explicit => Some(0.02),
             Integrator::Bdf2 => Some(0.5),
             _ => None,

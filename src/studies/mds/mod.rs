@@ -115,7 +115,8 @@ fn outside((k, ties, loss): Case) -> Result<f64, ReportError> {
     };
     let value = table.required_numbers("value")?;
     let nth = (0..value.len()).find(is_it);
-    Ok(nth.map_or(f64::INFINITY, |nth| value[nth]))
+    nth.map(|nth| value[nth])
+        .ok_or_else(|| ReportError::Study("no truth from outside is stored".to_owned()))
 }
 
 fn ways(k: usize, loss: Loss) -> Vec<Way> {

@@ -26,9 +26,9 @@ use textiles::{amplitudes_um, poses_between, scene_with};
 /// The speeds that are promised, mm/s.
 const SPEEDS_MM_PER_S: [f64; 2] = [1.0, 2000.0];
 /// The level error that is promised, dB.
-const PROMISED_DB: f64 = 0.05;
+pub(crate) const PROMISED_DB: f64 = 0.05;
 /// What is promised below a thousandth of the largest amplitude, as a share of it.
-const PROMISED_SHARE: f64 = 6e-6;
+pub(crate) const PROMISED_SHARE: f64 = 6e-6;
 /// Poses that a measurement of time goes through.
 const N_TIMED: usize = 16;
 /// Shares of an amplitude below which `banded` leaves bins out.

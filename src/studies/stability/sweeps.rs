@@ -10,6 +10,7 @@ use super::stylus::{fall, fallen};
 use crate::chart::{chart, lines_by};
 use crate::picture::share_off;
 use crate::readable::number;
+use crate::rendering::{PROMISED_DB, PROMISED_SHARE};
 use crate::textiles::{amplitudes_um, noise, of_heights, prepared, scene_with};
 use crate::{Bench, Effort, Findings, ReportError, Row, Study};
 use selvedge_chart::{Axis, Chart};
@@ -19,7 +20,7 @@ use selvedge_render::ErrorMeter;
 use selvedge_render::array::Method;
 use selvedge_render::contact::{Standing, Stepper};
 use selvedge_textile::picture::Basis;
-use selvedge_textile::surface::{N_BINS, Surface};
+use selvedge_textile::surface::{N_BINS, Surface, WINDOW_LENGTH_MM};
 use selvedge_textile::tactile::MAX_SPEED_MM_PER_S;
 use std::f64::consts::TAU;
 
@@ -193,9 +194,6 @@ fn run(bench: &mut Bench<'_>) -> Result<Findings, ReportError> {
 const WAVE_UM: f64 = 3.0;
 /// Speeds that surfaces are felt at, mm/s.
 const SPEEDS_MM_PER_S: [f64; 6] = [1.0, 7.3, 40.0, 171.0, 600.0, 2000.0];
-/// Of level errors, dB; of what is below a thousandth of the largest, as a share of that.
-const LEVEL_DB: f64 = 0.05;
-const SHARE_BELOW: f64 = 6e-6;
 
 fn wave(x_mm: f64) -> f64 {
     WAVE_UM * (TAU * x_mm).sin()
@@ -227,7 +225,7 @@ fn beside_reference(
             meter.add(*found, *exact);
         }
         let error = meter.finish();
-        let share = (error.max_db / LEVEL_DB).max(error.max_share_below / SHARE_BELOW);
+        let share = (error.max_db / PROMISED_DB).max(error.max_share_below / PROMISED_SHARE);
         points.push(point(method.name(), share, condition));
     }
     Ok(points)
@@ -247,7 +245,7 @@ fn offset(um: f64) -> Result<Vec<Row>, ReportError> {
 
 fn tilt(um_per_mm: f64) -> Result<Vec<Row>, ReportError> {
     let surface = of_heights(|x| um_per_mm * x + wave(x))?;
-    let condition = um_per_mm * selvedge_textile::surface::WINDOW_LENGTH_MM / WAVE_UM;
+    let condition = um_per_mm * WINDOW_LENGTH_MM / WAVE_UM;
     beside_reference(&surface, &SPEEDS_MM_PER_S, condition)
 }
 

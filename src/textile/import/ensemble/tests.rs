@@ -2,6 +2,7 @@
 
 use super::super::height_scale::HeightScale;
 use super::*;
+use crate::picture::shading::tests::correlation;
 use crate::picture::shading::{Light, Method, picture_of};
 use selvedge_foundation::numerics::{Grid, Random};
 use selvedge_foundation::progress::CancelFlag;
@@ -153,16 +154,6 @@ fn a_raised_flag_ends_it_and_a_picture_of_one_colour_has_no_relief() {
     let flat = brightness(&Grid::filled(160, 160, 0.5));
     let none = Progress::unheard(|p| Ensemble::of(&flat, &about(), known(), 2, p)).unwrap_err();
     assert!(none.to_string().contains("flat"), "{none}");
-}
-
-/// Correlation of two grids.
-fn correlation(a: &Grid<f64>, b: &Grid<f64>) -> f64 {
-    let n = a.values().len() as f64;
-    let pairs = || a.values().iter().zip(b.values());
-    let [mean_a, mean_b] = [a, b].map(|grid| grid.values().iter().sum::<f64>() / n);
-    let sum =
-        |f: fn(f64, f64) -> f64| -> f64 { pairs().map(|(a, b)| f(a - mean_a, b - mean_b)).sum() };
-    sum(|a, b| a * b) / (sum(|a, _| a * a) * sum(|_, b| b * b)).sqrt()
 }
 
 #[test]

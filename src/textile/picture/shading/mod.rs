@@ -29,7 +29,7 @@ mod reliability;
 mod shape;
 mod tangent;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod tsai_shah;
 mod turns;
 mod variational;

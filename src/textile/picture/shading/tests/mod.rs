@@ -93,7 +93,8 @@ fn averaged(fine: &Grid<f64>) -> Grid<f64> {
     coarse
 }
 
-fn correlation(a: &Grid<f64>, b: &Grid<f64>) -> f64 {
+/// Correlation of two grids.
+pub(crate) fn correlation(a: &Grid<f64>, b: &Grid<f64>) -> f64 {
     let [a, b] = [a, b].map(about_mean);
     let dot = |a: &Grid<f64>, b: &Grid<f64>| -> f64 {
         a.values().iter().zip(b.values()).map(|(a, b)| a * b).sum()
